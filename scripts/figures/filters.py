@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Compares the filters, for docs/data/filters-noise.csv, filters-network.csv and filters-area.csv.
 
-    filters.py noise CLIP... [--frames N]
-    filters.py network NETWORK CLIP... [--frames N]
+    filters.py [--frames N] noise CLIP...
+    filters.py [--frames N] [--first N] network NETWORK CLIP...
     filters.py area
 
 `noise` adds noise to the first N frames of each clip, and writes the PSNR of the denoised frames against those without added noise.
 Impulse noise makes a share of the pixels black or white; Gaussian noise has a standard deviation in grey levels. `network` runs
-YOLOX-nano on N frames, spread evenly over each clip, behind preset `fovea` with each filter, which sends denoised or raw pixels.
+YOLOX-nano on N frames, spread evenly over the first frames of each clip, 600 by default, behind preset `fovea` with `variance` of at
+least 40, `temporal.level` 20 and `periphery.level` 1, with each filter. The camera sends denoised or raw pixels.
 `area` prints the LUTs and flip-flops of an RPU with each filter. The rows go to standard output.
 
 `noise` needs the Python package, and the others `foveate` on the path (or its path in FOVEATE), and ffprobe, of ffmpeg.
@@ -19,7 +20,7 @@ import os
 import sys
 import tempfile
 
-from indexes import FRAMING, foveate
+from indexes import FRAMING, foveate, settings
 from sight import frame_count
 
 FILTERS = ["none", "median3x3", "switching3x3", "binomial3x3"]
@@ -68,16 +69,17 @@ def noise_rows(clips, frames):
                 yield [clip_name(clip), kind, amount, name, "" if error == 0 else f"{10 * np.log10(255**2 / error):.2f}"]
 
 
-def network_rows(network, clips, frames):
+def network_rows(network, clips, frames, first):
     """Yields the rows of the table of networks."""
     yield ["clip", "filter", "payload", "frames", "sent_percent", "found", "kept_percent", "right_percent"]
     for clip in clips:
-        every = max(frame_count(clip) // frames, 1)
+        every = max(min(frame_count(clip), first) // frames, 1)
         for name in FILTERS:
             for payload in ["denoised", "raw"] if name != "none" else ["denoised"]:
                 with tempfile.TemporaryDirectory() as folder:
-                    camera = ["--preset", "fovea", "--set", filter_option(name), "--set", f'render.payload="{payload}"']
-                    summary = foveate("infer", network, clip, "-o", os.path.join(folder, "out"), "--every", every, "--noise", "0", *FRAMING, *camera)
+                    camera = [*settings("variance", None, 40), "--set", filter_option(name), "--set", f'render.payload="{payload}"']
+                    camera += ["--max-frames", first, "--every", every, "--noise", "0"]
+                    summary = foveate("infer", network, clip, "-o", os.path.join(folder, "out"), *FRAMING, *camera)
                 sight = summary["sight"]
                 found = sight["detections"]["all"]["whole"]
                 shares = [f"{100 * sight['detections'][key]:.1f}" if found else "" for key in ("kept_share", "precision")]
@@ -95,6 +97,7 @@ def area_rows():
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--frames", type=int, default=60)
+    parser.add_argument("--first", type=int, default=600)
     tables = parser.add_subparsers(dest="table", required=True)
     tables.add_parser("noise").add_argument("clips", nargs="+")
     network = tables.add_parser("network")
@@ -105,7 +108,7 @@ def main():
     if arguments.table == "noise":
         rows = noise_rows(arguments.clips, arguments.frames)
     elif arguments.table == "network":
-        rows = network_rows(arguments.network, arguments.clips, arguments.frames)
+        rows = network_rows(arguments.network, arguments.clips, arguments.frames, arguments.first)
     else:
         rows = area_rows()
     table = csv.writer(sys.stdout, lineterminator="\n")

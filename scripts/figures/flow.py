@@ -8,9 +8,10 @@
 
 `noise` shows an image twice, each time with other Gaussian noise, and counts the regions that vote although nothing moves. `pans` moves
 the view over an image by known steps, and compares the displacements of the regions that vote, OpenCV's dense flow (DIS) averaged over
-each region, and OpenCV's phase correlation of each region. `clips` compares the displacements of the regions that vote with DIS on the
-first N frames of real clips: the share of the votes that differ from it by at most one pixel in both directions. A displacement is
-right if it equals the step, or the nearest step that the radius permits.
+each region, and OpenCV's phase correlation of each region and of the whole view. A displacement is right if it equals the step, once
+rounded. `clips` compares the displacements of the regions that vote with DIS on the first N frames of real clips: the share of the votes
+that differ from it by at most one pixel in both directions, among all votes, where DIS counts as the radius if it is larger, and among
+those within reach, where DIS is no larger than the radius.
 
 The rows go to standard output. Needs the Python package, numpy and opencv-python-headless.
 """
@@ -112,14 +113,15 @@ def right_percent(found, step, votes):
 def pan_rows(path):
     chance = np.random.default_rng(2)
     image = gray_image(path)
-    yield ["step", "sigma", "side", "votes_percent", "flow_right", "dis_right", "phase_right"]
+    yield ["step", "sigma", "side", "votes_percent", "flow_right", "dis_right", "phase_right", "whole_phase"]
     for step, sigma, side in itertools.product(STEPS, [0, 2], [8, 16]):
         frames = [with_noise(view(image, moved), sigma, chance) if sigma else view(image, moved) for moved in ((0, 0), step)]
         votes, found = motion(frames, 3, 2, side)
         dense = region_means(dense_flow(*frames), side)
         phases = region_phases(*frames, side)
         shares = [right_percent(other, step, votes) for other in (found, dense, phases)]
-        yield [f"{step[0]} {step[1]}", sigma, side, f"{100 * votes.mean():.1f}", *shares]
+        whole = cv2.phaseCorrelate(*map(np.float32, frames))[0]
+        yield [f"{step[0]} {step[1]}", sigma, side, f"{100 * votes.mean():.1f}", *shares, f"{whole[0]:.2f} {whole[1]:.2f}"]
 
 
 def clip_frames(path, count):
@@ -137,7 +139,7 @@ def clip_frames(path, count):
 
 
 def clip_rows(clips, count):
-    yield ["clip", "radius", "frames", "votes_percent", "moving_percent", "near_dis_percent"]
+    yield ["clip", "radius", "frames", "votes_percent", "moving_percent", "near_percent", "reach_percent", "near_in_reach_percent"]
     for clip in clips:
         frames = clip_frames(clip, count)
         dense = [region_means(dense_flow(*pair), 8) for pair in itertools.pairwise(frames)]
@@ -145,18 +147,26 @@ def clip_rows(clips, count):
             yield [os.path.basename(clip).rsplit(".", 1)[0], radius, len(frames), *clip_shares(frames, dense, radius)]
 
 
+def percent_text(parts, digits=1):
+    """Returns the mean of some numbers, in percent, or nothing if there are none."""
+    return f"{100 * np.mean(parts):.{digits}f}" if len(parts) else ""
+
+
 def clip_shares(frames, dense, radius):
-    """Returns the shares of regions that vote, that move by DIS, and of votes that are near DIS, in percent."""
+    """Returns the shares of regions that vote and that move by DIS, and of votes near DIS, within reach, and near DIS among these."""
     own = camera(radius, 2, 8, frames[0].shape[::-1])
     own.step(frames[0])
-    votes, moving, near = [], [], []
+    votes, moving, near, within = [], [], [], []
     for field, frame in zip(dense, frames[1:], strict=True):
         outcome = own.step(frame, keep=True)
         distance = np.abs(outcome.displacements - np.clip(field, -radius, radius)).max(axis=-1)
+        speed = np.abs(field).max(axis=-1)
         votes.append(outcome.srs.mean())
-        moving.append((np.abs(field).max(axis=-1) >= 0.5).mean())
+        moving.append((speed >= 0.5).mean())
         near.extend(distance[outcome.srs] <= 1)
-    return f"{100 * np.mean(votes):.2f}", f"{100 * np.mean(moving):.2f}", f"{100 * np.mean(near):.1f}" if near else ""
+        within.extend(speed[outcome.srs] <= radius)
+    near, within = np.array(near, bool), np.array(within, bool)
+    return percent_text(votes, 2), percent_text(moving, 2), percent_text(near), percent_text(within), percent_text(near[within])
 
 
 def main():

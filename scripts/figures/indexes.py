@@ -1,16 +1,20 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Compares the relevance indexes over clips, for docs/data/indexes.csv.
+"""Compares the relevance indexes, for docs/data/indexes.csv and indexes-area.csv.
 
-    indexes.py NETWORK CLIP... --calibrate CLIP... [--share PERCENT] [--frames N]
+    indexes.py [--share PERCENT] [--first N] [--frames N] clips NETWORK CLIP... --calibrate CLIP...
+    indexes.py area
 
-NETWORK is YOLOX-nano. Each index is the only feature of preset `fovea`. So that all indexes send as much, each gets the minimum
-score with which the clips of --calibrate send nearest to PERCENT of their bytes, 6 by default. These clips are best others than
-those of the table. For each clip and index, the network runs on N frames, spread evenly over the clip, of which the camera sees
-all: on whole frames, on these with noise, and on the receiver's screen. The column `relevant_percent` is the share of the objects
-of whole frames of which at least half of the regions have SRS = 1, and `missed_percent` the share of those without an active
-region in that frame. LUTs, flip-flops and the clock are those of one RPU, as
-`foveate estimate` prints them. The rows go to standard output.
+`clips` runs YOLOX-nano behind preset `fovea` with `temporal.level` 20 and `periphery.level` 1, where each index is the only feature.
+So that all indexes send as much, each gets the minimum score with which the clips of --calibrate send nearest to PERCENT of their
+bytes, 5.2 by default. These clips are best others than those of the table. `flow` has reference `previous`, because a camera with
+`last-sent` would never send anything by `flow` alone. Of each clip, the camera sees the first frames, 600 by default. For each clip
+and index, the network runs on N of them, evenly spread: on whole frames, on these with noise, and on the receiver's screen. A clip
+may be a scene of the program (scene:NAME). The column `relevant_percent` is the share of the objects of whole frames of which at
+least half of the regions have SRS = 1, and `missed_percent` the share of those without an active region in that frame.
+
+`area` prints what `foveate estimate` finds for preset `fovea` with each index and its defaults: for an RPU of organization
+`pipelined`, which cannot compute `flow`, and for a lane of `serial` with a lane for each region. The rows go to standard output.
 
 Needs `foveate` on the path (or its path in FOVEATE), and ffprobe, of ffmpeg.
 """
@@ -28,16 +32,20 @@ from sight import NETWORKS, NOISE, frame_count
 INDEXES = {
     "edge": ([100], [1, 2, 3, 4, 5, 6, 8, 10, 13, 16, 20]),
     "corner": ([12], [1, 2, 3, 4, 5, 6, 8]),
-    "mad": ([], [1, 1.5, 2, 3, 4, 5, 6, 8, 10]),
-    "variance": ([], [5, 10, 15, 20, 30, 45, 60, 90, 130]),
-    "range": ([], [8, 12, 16, 20, 25, 30, 40, 50, 60]),
-    "surface": ([], [1, 1.5, 2, 3, 4, 5, 6, 8, 10]),
+    "mad": ([], [0.5, 1, 1.5, 2, 3, 4, 5, 6, 8, 10]),
+    "variance": ([], [5, 10, 15, 20, 30, 40, 60, 90, 130]),
+    "range": ([], [4, 8, 12, 16, 20, 25, 30, 40, 50, 60]),
+    "surface": ([], [0.5, 1, 1.5, 2, 3, 4, 5, 6, 8, 10]),
     "segment": ([8], [1, 2, 3, 4, 6, 8, 10, 13, 16, 20, 24]),
+    "flow": ([], [0.1, 0.25, 0.5, 1, 1.5, 2, 3, 4, 6, 8, 12]),
 }
+BASE = ["--preset", "fovea", "--set", "temporal.level=20", "--set", "periphery.level=1"]
+PREVIOUS = ["--set", 'temporal.reference="previous"']
+SERIAL = ["--set", 'hardware.organization="serial"']
 FRAMING = [*NETWORKS["yolox_nano.onnx"][0], "--detect", NETWORKS["yolox_nano.onnx"][1]]
 COLUMNS = ["clip", "index", "level", "min_score", "frames", "sent_percent", "active_percent", "found",
            "kept_percent", "right_percent", "relevant_percent", "missed_percent",
-           *(f"noise{level}_agreement" for level in NOISE), "lut", "ff", "clock_mhz"]
+           *(f"noise{level}_agreement" for level in NOISE)]
 
 
 def foveate(*words):
@@ -52,7 +60,8 @@ def foveate(*words):
 def settings(index, level, minimum):
     """Returns the options of a camera."""
     level_text = "" if level is None else f",level={level}"
-    return ["--preset", "fovea", "--set", f'spatial=[{{feature="{index}",min_score={minimum}{level_text}}}]']
+    camera = [*BASE, "--set", f'spatial=[{{feature="{index}",min_score={minimum}{level_text}}}]']
+    return camera if index != "flow" else [*camera, *PREVIOUS, *SERIAL]
 
 
 def sent_percent(clips, camera):
@@ -66,14 +75,15 @@ def sent_percent(clips, camera):
     return sum(shares) / len(shares)
 
 
-def calibrated_minimum(index, level, minima, clips, share):
+def calibrated_minimum(index, level, minima, arguments):
     """Returns the minimum score with which the camera sends nearest to a share of the bytes. A higher minimum never sends more."""
     low, high = 0, len(minima) - 1
     measured = {}
 
     def error(place):
         if place not in measured:
-            measured[place] = sent_percent(clips, settings(index, level, minima[place])) - share
+            camera = [*settings(index, level, minima[place]), "--max-frames", arguments.first]
+            measured[place] = sent_percent(arguments.calibrate, camera) - arguments.share
         return measured[place]
 
     while high - low > 1:
@@ -98,31 +108,35 @@ def recall_percents(folder, clip, camera):
     return [f"{100 * float(shares[vote][key]):.1f}" for vote, key in (("srs", "half"), ("active", "missed"))]
 
 
-def area(camera):
-    """Returns the LUTs, flip-flops and clock of an RPU."""
-    report = foveate("estimate", *camera)
-    return report["rpu"]["lut_total_packed"], report["rpu"]["ff"], f"{report['clock']['mhz']:.0f}"
+def area_rows():
+    """Yields the rows of the table of areas."""
+    yield ["index", "rpu_lut", "rpu_clock_mhz", "lane_lut", "lane_clock_mhz", "lane_clocks_per_frame"]
+    for index in INDEXES:
+        camera = ["--preset", "fovea", "--set", f'spatial=[{{feature="{index}"}}]', *(PREVIOUS if index == "flow" else [])]
+        reports = [None if index == "flow" else foveate("estimate", *camera), foveate("estimate", *camera, *SERIAL)]
+        figures = [(report["rpu"]["lut_total_packed"], f"{report['clock']['mhz']:.0f}") if report else ("", "") for report in reports]
+        yield [index, *figures[0], *figures[1], reports[1]["clocks_per_frame"]]
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("network")
-    parser.add_argument("clips", nargs="+")
-    parser.add_argument("--calibrate", nargs="+", required=True)
-    parser.add_argument("--share", type=float, default=6.0)
-    parser.add_argument("--frames", type=int, default=60)
-    arguments = parser.parse_args()
+def calibrated_cameras(arguments):
+    """Returns the settings of a camera for each index, its level and its minimum score."""
     cameras = {}
     for index, (levels, minima) in INDEXES.items():
         for level in levels or [None]:
-            minimum = calibrated_minimum(index, level, minima, arguments.calibrate, arguments.share)
-            cameras[index, level, minimum] = settings(index, level, minimum)
-    areas = {key: area(camera) for key, camera in cameras.items()}
-    table = csv.writer(sys.stdout, lineterminator="\n")
-    table.writerow(COLUMNS)
+            minimum = calibrated_minimum(index, level, minima, arguments)
+            cameras[index, level, minimum] = [*settings(index, level, minimum), "--max-frames", arguments.first]
+            print(f"indexes: {index} has min_score {minimum}", file=sys.stderr)
+    return cameras
+
+
+def clip_rows(arguments):
+    """Yields the rows of the table of clips."""
+    cameras = calibrated_cameras(arguments)
+    yield COLUMNS
     for clip in arguments.clips:
-        every, noise = max(frame_count(clip) // arguments.frames, 1), None
-        name = os.path.basename(clip).rsplit(".", 1)[0]
+        length = arguments.first if clip.startswith("scene:") else min(frame_count(clip), arguments.first)
+        every, noise = max(length // arguments.frames, 1), None
+        name = os.path.basename(clip).rsplit(".", 1)[0].removeprefix("scene:")
         for (index, level, minimum), camera in cameras.items():
             with tempfile.TemporaryDirectory() as folder:
                 levels = "0" if noise is not None else ",".join(map(str, NOISE))
@@ -134,9 +148,26 @@ def main():
             noise = noise if noise is not None else [f"{100 * level['agreement']:.1f}" for level in sight["noise"]]
             found = sight["detections"]["all"]["whole"]
             shares = [f"{100 * sight['detections'][key]:.1f}" if found else "" for key in ("kept_share", "precision")]
-            table.writerow([name, index, "" if level is None else level, minimum, summary["counted_frames"], f"{100 * sight['sent_share']:.2f}",
-                            f"{100 * summary['active_share']:.2f}", found, *shares, *recall, *noise, *areas[index, level, minimum]])
-            sys.stdout.flush()
+            yield [name, index, "" if level is None else level, minimum, summary["counted_frames"], f"{100 * sight['sent_share']:.2f}",
+                   f"{100 * summary['active_share']:.2f}", found, *shares, *recall, *noise]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--share", type=float, default=5.2)
+    parser.add_argument("--frames", type=int, default=60)
+    parser.add_argument("--first", type=int, default=600)
+    tables = parser.add_subparsers(dest="table", required=True)
+    clips = tables.add_parser("clips")
+    clips.add_argument("network")
+    clips.add_argument("clips", nargs="+")
+    clips.add_argument("--calibrate", nargs="+", required=True)
+    tables.add_parser("area")
+    arguments = parser.parse_args()
+    table = csv.writer(sys.stdout, lineterminator="\n")
+    for row in clip_rows(arguments) if arguments.table == "clips" else area_rows():
+        table.writerow(row)
+        sys.stdout.flush()
 
 
 if __name__ == "__main__":
