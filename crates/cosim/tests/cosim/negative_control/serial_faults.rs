@@ -13,9 +13,9 @@ const EDGE_AND_CORNER: FaultDesign = FaultDesign::array(
      spatial = [{ feature = 'edge' }, { feature = 'corner' }]\nhardware.organization = 'serial'\n",
     (2, 1),
 );
-/// Mean absolute deviation, with a second pass.
-const MAD: FaultDesign = FaultDesign::array(
-    "region.size = 5\ndenoise.filter = 'none'\nspatial = [{ feature = 'mad', mean_fraction_bits = 2 }]\n\
+/// Displacements of regions.
+const FLOW: FaultDesign = FaultDesign::array(
+    "region.size = 4\ndenoise.filter = 'none'\nspatial = [{ feature = 'flow' }]\n\
      hardware.organization = 'serial'\n",
     (2, 1),
 );
@@ -57,12 +57,12 @@ pub(super) const FAULTS: [PlantedFault; 12] = [
         to: "} + {~other_i",
     },
     PlantedFault {
-        check: "a score of the second pass",
-        port: "score_o",
-        design: MAD,
-        module: "serial_lane",
-        from: "whole << SCALED",
-        to: "whole << (SCALED - 1)",
+        check: "a displacement",
+        port: "displacement_x_o",
+        design: FLOW,
+        module: "serial_flow",
+        from: "preceding_q <= {y, x}",
+        to: "preceding_q <= {x, y}",
     },
     PlantedFault {
         check: "a threshold at a port: the score that equals it",
