@@ -244,10 +244,8 @@ fn arrows_of_a_stream_without_scores_are_bright_where_regions_are_relevant() {
     ];
     let folder = tempfile::tempdir().unwrap();
     let (sent, seen) = (folder.path().join("sent"), folder.path().join("seen"));
-    let overlay = RunOptions {
-        overlay: Some(PictureFormat::Png),
-        ..options(Some(PacketContent::Plain))
-    };
+    let overlay =
+        RunOptions { overlay: Some(PictureFormat::Png), ..options(Some(PacketContent::Plain)) };
     street(&sent, &overrides, &overlay);
     let stream = fs::read(sent.join("packets.bin")).unwrap();
     decode(&stream, &overrides, &seen, &RunOptions { packets: None, ..overlay }).unwrap();
