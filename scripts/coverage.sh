@@ -60,7 +60,7 @@ settings=("paper" "paper --set denoise.filter='none' --set temporal.reference='l
 if [ "${1:-}" != --quick ]; then
     names+=(shared raw odd large means serial_sent serial_all serial_none serial_shared serial_raster serial_block
         serial_means serial_deep serial_swift deep raster_plain raster_sums raster_sent raster_outside raster_single raster_mute raster_means
-        array_sync serial_sync raster_sync switching binomial serial_switching serial_binomial serial_flow serial_flow_sent raster_switching raster_binomial
+        array_sync serial_sync raster_sync switching binomial serial_switching serial_binomial serial_flow serial_flow_sent serial_flow_shared raster_switching raster_binomial
         axi axi_means axi_outside axi_odd)
     settings+=(
         "paper --set region.neighborhood='shared' --set spatial=[$corner,$edge] --set decision.combine='all'"
@@ -94,6 +94,7 @@ if [ "${1:-}" != --quick ]; then
         "bare $serial --set region.size=4 $binomial"
         "bare $serial --set region.size=4 --set spatial=[{feature='flow',min_score=2}]"
         "paper $serial $deep --set region.size=5 --set temporal.reference='last-sent' --set hardware.fold=2 --set spatial=[$edge,{feature='flow',radius=3},{feature='surface'}]"
+        "bare $serial --set region={size=6,neighborhood='shared'} --set hardware.feed='raster' --set spatial=[{feature='flow',radius=2,min_score=2}]"
         "bare $raster --grid 4x3 --set region.size=4 $switching"
         "bare $raster --grid 8x2 --set region.size=8 --set frame={width=218,height=222} --set hardware.pixels_per_clock=2 $binomial"
         "paper $axi --rounds 3 --set region.size=4 --set frame={width=24,height=16}"
