@@ -8,13 +8,23 @@ localparam F_LATE = DEEP;
 function [2:0] f_reach(input [F_COLUMN-1:0] column);
     f_reach = {column[2*WIDTH+:WIDTH] >= f_threshold, column[WIDTH+:WIDTH] >= f_threshold, column[0+:WIDTH] >= f_threshold};
 endfunction
-// Tests that {high, mid, low} is the sorted column.
+function [WIDTH-1:0] f_larger(input [WIDTH-1:0] a, input [WIDTH-1:0] b);
+    f_larger = a > b ? a : b;
+endfunction
+function [WIDTH-1:0] f_smaller(input [WIDTH-1:0] a, input [WIDTH-1:0] b);
+    f_smaller = a < b ? a : b;
+endfunction
+// Tests that {high, mid, low} is the sorted column. SWITCHING compares pixels of sorted columns with each other, so for its induction
+// the high and the low ones are those of the column at every threshold.
 function f_sorted(input [F_COLUMN-1:0] sorted, input [F_COLUMN-1:0] column);
     reg [2:0] r, s;
     begin
         r = f_reach(column);
         s = f_reach(sorted);
         f_sorted = s[0] == &r && s[2] == |r && s[1] == ((r[0] && r[1]) || (r[0] && r[2]) || (r[1] && r[2]));
+        if (SWITCHING) f_sorted = f_sorted
+            && sorted[2*WIDTH+:WIDTH] == f_larger(f_larger(column[0+:WIDTH], column[WIDTH+:WIDTH]), column[2*WIDTH+:WIDTH])
+            && sorted[0+:WIDTH] == f_smaller(f_smaller(column[0+:WIDTH], column[WIDTH+:WIDTH]), column[2*WIDTH+:WIDTH]);
     end
 endfunction
 function [3:0] f_count(input [3*F_COLUMN-1:0] window);
