@@ -10,6 +10,7 @@ use foveate_design::{SerialDesign, SerialPhase, SerialTiming};
 
 const ROWS: StimulusPattern = Texture(TextureKind::Rows(2));
 const COLUMNS: StimulusPattern = Texture(TextureKind::Columns(2));
+const STRIPES: StimulusPattern = Texture(TextureKind::Columns(1));
 const DOTS: StimulusPattern = Texture(TextureKind::Dots(1, 3));
 
 /// Returns all sequences, the most telling first. Sequences that end with a reset within a frame
@@ -60,7 +61,8 @@ pub(super) fn sequences(design: SerialDesign<'_>) -> Vec<FrameSequence> {
     ];
     if design.flow_search().is_some() {
         // Content that moves, stands still, and is the same along rows, along columns or
-        // everywhere, so that several displacements are equally good.
+        // everywhere, so that several displacements are equally good. Stripes that move by an odd
+        // number of columns have the largest score.
         list.splice(
             1..1,
             [
@@ -72,6 +74,10 @@ pub(super) fn sequences(design: SerialDesign<'_>) -> Vec<FrameSequence> {
                     "equal movements",
                     &[ROWS, Moved, Moved, COLUMNS, Moved, Flat, Moved, DOTS, Moved, Moved],
                 ),
+                FrameSequence {
+                    is_mixed: false,
+                    ..mixed("largest movements", &[STRIPES, Moved, Moved, Moved])
+                },
                 aimed(
                     ThresholdAim::Smallest,
                     "movements of sent regions",
