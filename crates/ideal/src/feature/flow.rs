@@ -14,23 +14,24 @@ pub(super) fn score(radius: u32, view: &FrameView, scores: &mut [f64]) {
     for (region, score) in scores.iter_mut().enumerate() {
         *score = 0.0;
         if view.references.valid[region] {
-            let still = DisplacedDifference::new(view, region, Displacement::default());
-            let moved =
-                displacements.iter().map(|one| DisplacedDifference::new(view, region, *one));
-            *score = moved.map(|one| one.gain_over(&still)).fold(0.0, f64::max);
+            let costs = displacements.iter().map(|one| MatchingCost::new(view, region, *one));
+            let costs: Vec<_> = costs.collect();
+            // The first displacement is 0.
+            let still = &costs[0];
+            *score = costs.iter().map(|cost| cost.gain_over(still)).fold(0.0, f64::max);
         }
     }
 }
 
-/// The differences of the pixels of a region from their partners at a displacement.
-struct DisplacedDifference {
-    /// The sum of the absolute differences.
+/// The cost of matching a region with its reference at a displacement.
+struct MatchingCost {
+    /// E(d), the sum of the absolute differences of the pixels from their partners.
     sum: f64,
-    /// The number of pixels whose partner lies in the region too.
+    /// n(d), the number of pixels whose partner lies in the region too.
     pairs: f64,
 }
 
-impl DisplacedDifference {
+impl MatchingCost {
     fn new(view: &FrameView, region: usize, Displacement { dx, dy }: Displacement) -> Self {
         let (columns, rows) = view.grid.area(region);
         let (columns, partner_columns) = paired(&columns, dx);
@@ -48,8 +49,9 @@ impl DisplacedDifference {
         Self { sum: differences.iter().sum(), pairs: pairs.into() }
     }
 
-    /// Returns how much larger the mean of another difference is. It is one quotient and not the
-    /// difference of two, so that a score that equals the minimum is not rounded below it.
+    /// Returns by how much the mean error E(d) / n(d) of another displacement is larger. It is one
+    /// quotient and not the difference of two, so that a score that equals the minimum is not rounded
+    /// below it.
     fn gain_over(&self, other: &Self) -> f64 {
         (other.sum * self.pairs - self.sum * other.pairs) / (other.pairs * self.pairs)
     }
