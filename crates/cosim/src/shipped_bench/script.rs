@@ -328,16 +328,19 @@ impl<'a> ScriptWriter<'a> {
 
     /// A reset comes while pixels leave.
     fn leaving_sequence(&self, is_wide: bool) -> BenchSequence {
+        let frames = if is_wide { self.wide_frames() } else { self.relevant_frames() };
+        BenchSequence { frames, end: SequenceEnd::Leaving(0) }
+    }
+
+    /// Returns a frame of relevant regions. With `flow` there are two, because a region has a
+    /// displacement from the second frame on.
+    fn relevant_frames(&self) -> Vec<BenchFrame> {
         let relevant = self.relevant_thresholds();
-        let mut frames = match is_wide {
-            true => self.wide_frames(),
-            false => vec![self.frame_of_first(1, relevant)],
-        };
-        if !is_wide && self.part.displacement_feature().is_some() {
-            // A region has a displacement from the second frame on.
+        let mut frames = vec![self.frame_of_first(1, relevant)];
+        if self.part.displacement_feature().is_some() {
             frames.push(self.frame(1, relevant, |_, region| region.other.clone()));
         }
-        BenchSequence { frames, end: SequenceEnd::Leaving(0) }
+        frames
     }
 
     /// No region has a reference, and yet none has changed, because the minimum is above all
