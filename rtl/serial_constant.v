@@ -130,8 +130,8 @@ module serial_constant #(
     endgenerate
 
     // The shifted number.
-    // A division ends when the divisor is back at its own places. `mad` and `segment` divide by the pixels of a region,
-    // `variance`, `range` and `surface` divide by 1.
+    // A division ends when the divisor is back at its own places. `mad` and `segment` divide by the pixels of a region; `variance`,
+    // `range` and `surface` divide by 1; `flow` divides by 1 or by the weight of a displacement.
     assign spent_o = scale_q == 0;
     wire flow_ends;  // `flow`: the shifted number is at its last place
     wire [SCALE_BITS-1:0] flow_start;  // `flow`: the shifted number that comes next

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Gives the displacements of `flow` one after the other, from the last in the order of the search to 0. That order is by the
-// number of pixels |dx| + |dy|, then by dy, then by dx (docs/contract.md, "Flow"). The outputs are those of the step of the
+// Gives the displacements of `flow` one after the other, from the last in the order of the search to 0. The order of the
+// search is by |dx| + |dy|, then by dy, then by dx (docs/contract.md, "Flow"). The outputs are those of the step of the
 // same clock, except preceding_o.
 //
 // The weight of a displacement is a * a / ((SIDE - |dx|) * (SIDE - |dy|)), where a is the least common multiple of SIDE and the

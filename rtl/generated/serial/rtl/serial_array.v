@@ -63,7 +63,7 @@ module serial_array #(
     parameter SUM_BITS = 14,        // bits of the sum of a region
     parameter SCALE_BITS = 8,       // bits of the constant that is shifted from step to step
     parameter ACC_BITS = 11,        // bits of the accumulator, which is signed
-    parameter AUX_BITS = 1,         // bits of the second word: a mean, a sum or the largest pixel; at least 2
+    parameter AUX_BITS = 1,         // bits of the second word: a mean, a sum, the largest pixel or a quotient; at least 2
     parameter CHAIN_BITS = 7,       // bits of the word that goes around the ring of lanes
     parameter LEAST_BITS = 2,       // `flow`: bits of a sum times its weight
     parameter COORDINATE_BITS = 2,  // bits of dx and of dy of a displacement

@@ -57,7 +57,7 @@ module serial_lane #(
     parameter FRACTION = 0,      // fraction bits of the mean of `mad`
     parameter SUMMARIES = 0,     // 1: irrelevant regions send the means of their blocks
     parameter DROPPED = 0,       // bits of a block's sum that the score does not take; 0 if a feature takes the accumulator
-    parameter AUX_BITS = 1,      // bits of the second word: a mean, a sum or the largest pixel
+    parameter AUX_BITS = 1,      // bits of the second word: a mean, a sum, the largest pixel or a quotient
     parameter SUM_BITS = 14,     // `surface` and `flow`: bits of the sum of a region
     parameter PIXELS = 64,       // `segment`: pixels of a region
     parameter LEAST_BITS = 2,    // `flow`: bits of a sum times its weight

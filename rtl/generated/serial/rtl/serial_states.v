@@ -79,8 +79,8 @@ module serial_states #(
     localparam [4:0] SUM = 5'd12;
     localparam [4:0] DOUBLE = 5'd13;
     localparam [4:0] HALF = 5'd14;     // adds half of the divisor
-    localparam [4:0] DIVIDE = 5'd15;   // finds a bit of the quotient; a division by 1 moves the accumulator to `aux`
-    localparam [4:0] CLEAR = 5'd16;    // `flow`: notes the displacement, and goes to the first pair of the next one
+    localparam [4:0] DIVIDE = 5'd15;   // finds a bit of a quotient; a division by 1 moves the accumulator to `aux`; `flow` may subtract its smallest product
+    localparam [4:0] CLEAR = 5'd16;    // ends a sum or a comparison: `surface` and `flow` keep the smaller value, `segment` keeps the mean
     localparam [4:0] DEVIATE = 5'd17;
     localparam [4:0] SQUARE = 5'd18;   // adds words whose bit is set
     localparam [4:0] CORRECT = 5'd19;  // subtracts the square of the sum
@@ -93,7 +93,7 @@ module serial_states #(
     localparam [4:0] STORE = 5'd26;    // writes a mean that has come back
     localparam [4:0] SHOW = 5'd27;     // a mean leaves
     localparam [4:0] RANGE_STEP = 5'd28;  // keeps the larger of the accumulator and a word, or its distance from the largest
-    localparam [4:0] RECALL = 5'd29;   // adds or subtracts `aux`, bit by bit
+    localparam [4:0] RECALL = 5'd29;   // adds the mean or a sum, or subtracts it, bit by bit; `flow` multiplies its sum by a weight
     localparam [4:0] WALK = 5'd30;     // `segment`: counts a word; `surface` and `flow`: adds the distance of a word from another
     localparam [4:0] FILTER_STEP = 5'd31;  // a step of `switching3x3` or `binomial3x3`
     localparam [4:0] FIRST = FILTER == 1 ? START : FILTER == 3 ? FILTER_STEP : READ;
