@@ -5,7 +5,7 @@
 use crate::periphery::valid_block_counts;
 use crate::ranges::{FLOW_RADII, largest_flow_radius, largest_level};
 use crate::width::index_bits;
-use crate::{Camera, Decimal};
+use crate::{Camera, Decimal, SpatialFeature};
 
 /// The valid values of one key while all other keys stay as they are.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -59,7 +59,7 @@ impl Camera {
             let whole = feature.kind().score_unit().is_count();
             bounds.push((key("min_score"), KeyBound::Maximum { largest, whole }));
             if let Some(bits) = entry.mean_fraction_bits {
-                bounds.push((key("mean_fraction_bits"), self.mean_fraction_bound(bits)));
+                bounds.push((key("mean_fraction_bits"), self.mean_fraction_bound(feature, bits)));
             }
             if feature.radius().is_some() {
                 let radii = *FLOW_RADII.start()..=largest_flow_radius(self.region_size());
@@ -71,12 +71,15 @@ impl Camera {
 
     /// Returns the valid fraction bits of the mean of one feature, which has `bits` now. The mean of
     /// two features cannot be changed by the key of only one of them.
-    fn mean_fraction_bound(&self, bits: u32) -> KeyBound {
+    fn mean_fraction_bound(&self, feature: &SpatialFeature, bits: u32) -> KeyBound {
         let entries = self.config().spatial.iter();
+        let largest = index_bits(self.region_pixels().into());
         if entries.filter(|entry| entry.has_mean_fraction()).count() > 1 {
             KeyBound::OneOf(vec![bits])
+        } else if feature.needs_mean_fraction(self.pixel_max()) {
+            KeyBound::OneOf((1..=largest).collect())
         } else {
-            KeyBound::whole_maximum(index_bits(self.region_pixels().into()))
+            KeyBound::whole_maximum(largest)
         }
     }
 }
@@ -99,6 +102,8 @@ mod tests {
             vec![ALL, "region.size=5", "frame.pixel_bits=12", "temporal.min_count=0"],
             vec!["spatial=[{feature=\"corner\",min_score=0}]", "frame.pixel_bits=1"],
             vec![SEGMENT, "region.size=3"],
+            vec![SEGMENT, "spatial.0.mean_fraction_bits=2", "spatial.0.level=127"],
+            vec![SEGMENT, "spatial.0.mean_fraction_bits=1", "frame.pixel_bits=1"],
             vec!["spatial=[{feature=\"flow\",min_score=0}]", "temporal.reference=\"last-sent\""],
         ] {
             let camera = |more: &str| {
@@ -135,6 +140,6 @@ mod tests {
                 keys += 1;
             }
         }
-        assert_eq!(keys, 4 + 18 + 18 + 16 + 4 + 5 + 4);
+        assert_eq!(keys, 4 + 18 + 18 + 16 + 4 + 3 * 5 + 4);
     }
 }

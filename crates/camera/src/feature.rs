@@ -5,7 +5,7 @@
 use std::fmt::Display;
 
 use crate::depth::{self, DEFAULT_BITS};
-use crate::ranges::{FLOW_RADII, largest_flow_radius, largest_level};
+use crate::ranges::{FLOW_RADII, largest_flow_radius};
 use crate::{ConfigError, Decimal, FeatureKind, Reciprocal, SpatialConfig, bits_for};
 
 /// One spatial feature of a camera.
@@ -14,6 +14,7 @@ pub struct SpatialFeature {
     kind: FeatureKind,
     level: Option<u32>,
     level_max: Option<u32>,
+    largest_level: Option<u32>,
     unit: u64,
     min_score: u64,
     score_max: u64,
@@ -60,13 +61,17 @@ impl SpatialFeature {
         let max = u64::from(pixel_max);
         let fraction_bits = entry.fraction_bits(n)?;
         let (kind, level_max) = (config.feature, config.feature.level_max(pixel_max));
+        let always = config.min_score == Some(Decimal::from_whole(0));
+        let largest_level =
+            if always { level_max } else { kind.largest_deciding_level(pixel_max, fraction_bits) };
         let (mean, variance) = kind.mean_and_variance(n, max, fraction_bits);
         let unit = kind.unit(n, fraction_bits);
         let score_max = kind.score_max(n, max, fraction_bits);
         Ok(Self {
             kind,
-            level: entry.level(level_max)?,
+            level: entry.level(level_max, largest_level)?,
             level_max,
+            largest_level,
             unit,
             min_score: entry.min_score(unit, score_max)?,
             score_max,
@@ -103,10 +108,17 @@ impl SpatialFeature {
     }
 
     /// Returns the largest valid level of the configuration, or `None` if the feature has no
-    /// per-pixel threshold.
+    /// per-pixel threshold. Some region can then have a score above 0, unless the minimum score is
+    /// 0, with which the feature always votes.
     #[must_use]
     pub fn largest_level(&self) -> Option<u32> {
-        self.level_max.map(|max| largest_level(max, self.min_score == 0))
+        self.largest_level
+    }
+
+    /// Returns true if the level is too high for a mean that is a whole number.
+    pub(crate) fn needs_mean_fraction(&self, pixel_max: u32) -> bool {
+        let whole = self.kind.largest_deciding_level(pixel_max, 0);
+        self.min_score != 0 && self.level.is_some_and(|level| whole.is_none_or(|max| level > max))
     }
 
     /// Returns the number of score units in one unit of `min_score`. The unit of `min_score` is a
@@ -196,25 +208,42 @@ impl SpatialEntry<'_> {
         format!("spatial[{}].{name}", self.index)
     }
 
-    /// Checks the level against `max`, the largest magnitude that it is compared with. Some pixel
-    /// must be able to exceed the level, unless the minimum score is 0, so that the feature votes
-    /// without hits too.
-    fn level(&self, max: Option<u32>) -> Result<Option<u32>, ConfigError> {
+    /// Checks the level. `largest` is the largest valid one, or `None` if none is valid, and `max` the
+    /// largest magnitude that a level is compared with.
+    fn level(&self, max: Option<u32>, largest: Option<u32>) -> Result<Option<u32>, ConfigError> {
         let (level, max) = match (self.config.level, max) {
             (None, _) => return Ok(None),
             (Some(level), None) => return Err(self.inapplicable_key_error("level", level)),
             (Some(level), Some(max)) => (level, max),
         };
-        let always = self.config.min_score == Some(Decimal::from_whole(0));
-        let largest = largest_level(max, always);
+        let largest = largest.ok_or_else(|| self.whole_mean_error())?;
         let fits = |level: u32| level <= largest;
         if fits(level) {
             return Ok(Some(level));
         }
         let scaled = depth::scale_level(level, DEFAULT_BITS, self.bits);
         let hint = depth::depth_hint(&level, &scaled, fits(scaled), self.bits);
-        let valid = format!("0..={largest} (pixels of {} bits reach {max})", self.bits);
+        let sides = if self.config.feature.has_second_pass() && largest < max {
+            ", and some must be above and some below their mean"
+        } else {
+            ""
+        };
+        let valid = format!("0..={largest} (pixels of {} bits reach {max}{sides})", self.bits);
         Err(self.out_of_range_error("level", &level, &valid, &hint))
+    }
+
+    /// Returns the error for a feature whose mean of pixels of 1 bit is a pixel, so that no pixel is
+    /// on its other side.
+    fn whole_mean_error(&self) -> ConfigError {
+        ConfigError::Combination {
+            key: self.key("mean_fraction_bits"),
+            value: "0".to_owned(),
+            with: format!(
+                "frame.pixel_bits = {} of `{}`, which could not vote",
+                self.bits, self.config.feature
+            ),
+            remedy: format!("set {} = 1 or more", self.key("mean_fraction_bits")),
+        }
     }
 
     fn fraction_bits(&self, n: u64) -> Result<u32, ConfigError> {

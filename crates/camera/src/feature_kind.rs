@@ -174,6 +174,18 @@ impl FeatureKind {
         }
     }
 
+    /// Returns the largest level with which a region can have a score above 0, or `None` if every
+    /// region has the score 0 or the feature has no such threshold. A mean of `segment` must be more
+    /// than the level away from both ends of the range of pixels; it is a whole number if
+    /// `fraction_bits` is 0.
+    pub(crate) fn largest_deciding_level(self, pixel_max: u32, fraction_bits: u32) -> Option<u32> {
+        match self {
+            Self::Edge | Self::Corner => self.level_max(pixel_max).map(|max| max - 1),
+            Self::Segment => ((pixel_max - 1) / 2).checked_sub(u32::from(fraction_bits == 0)),
+            Self::Mad | Self::Variance | Self::Range | Self::Surface | Self::Flow => None,
+        }
+    }
+
     /// Returns the number of score units in one unit of `min_score`, for regions of `n` pixels.
     pub(crate) fn unit(self, n: u64, fraction_bits: u32) -> u64 {
         match self {

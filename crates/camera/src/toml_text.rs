@@ -3,7 +3,7 @@
 //! may have more tables than those of a camera.
 
 use crate::depth::DEFAULT_BITS;
-use crate::{CAMERA_KEYS, CameraConfig, ConfigError, ConfigKey, keys};
+use crate::{CAMERA_KEYS, CameraConfig, ConfigError, ConfigKey, IrrelevantRendering, keys};
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use serde_path_to_error::{Path, Segment};
@@ -26,10 +26,14 @@ pub trait TomlConfig: Serialize + Sized {
 /// # Errors
 /// Returns the errors of [`CameraConfig::from_toml_with`].
 pub fn read<C: TomlConfig, S: AsRef<str>>(text: &str, overrides: &[S]) -> Result<C, ConfigError> {
-    let mut table: Table =
+    let mut written: Table =
         text.parse().map_err(|e: toml::de::Error| ConfigError::Syntax(syntax_message(&e)))?;
-    let written = table.clone();
+    let mut table = written.clone();
     apply_overrides(&mut table, overrides)?;
+    if shows_means(&written) && !shows_means(&table) && written.remove("periphery").is_some() {
+        table = written.clone();
+        apply_overrides(&mut table, overrides)?;
+    }
     if let (Some(own), Some(other)) = (written_depth(&written), written_depth(&table))
         && own != other
     {
@@ -62,7 +66,8 @@ impl CameraConfig {
     ///
     /// Thresholds in grey levels belong to the depth that they are written with: an override of
     /// `frame.pixel_bits` scales the thresholds of the text. Thresholds in other overrides are not
-    /// scaled.
+    /// scaled. An override of `render.irrelevant` with another value than `"mean"` removes the table
+    /// `periphery` of the text, which has a meaning only with means.
     ///
     /// # Errors
     /// Returns the errors of [`CameraConfig::from_toml`], and an error for an override that is not
@@ -168,6 +173,12 @@ fn written_depth(table: &Table) -> Option<u32> {
     let bits = table.get("frame").and_then(|frame| frame.get("pixel_bits"));
     let bits = bits.map_or(Some(DEFAULT_BITS.into()), Value::as_integer)?;
     u32::try_from(bits).ok().filter(|bits| (1..=16).contains(bits))
+}
+
+/// Returns true if a table that has not been checked yet says that irrelevant regions send means.
+fn shows_means(table: &Table) -> bool {
+    let shown = table.get("render").and_then(|render| render.get("irrelevant"));
+    shown.and_then(Value::as_str) == Some(IrrelevantRendering::Mean.name())
 }
 
 fn apply_overrides<S: AsRef<str>>(table: &mut Table, overrides: &[S]) -> Result<(), ConfigError> {

@@ -22,6 +22,10 @@ pub(crate) fn config(
     config.camera.temporal.min_count = 3;
     config.camera.spatial = features.iter().map(|&kind| SpatialConfig::new(kind)).collect();
     for spatial in &mut config.camera.spatial {
+        // `segment` finds pixels of 1 bit on both sides of a mean only if the mean has a fraction.
+        if bits == 1 && features.contains(&FeatureKind::Segment) && spatial.has_mean_fraction() {
+            spatial.mean_fraction_bits = Some(1);
+        }
         match spatial.feature {
             FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Segment => {
                 spatial.level = Some((1 << bits) / 4);

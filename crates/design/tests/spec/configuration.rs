@@ -251,6 +251,32 @@ fn overrides_reach_every_key() {
     }
 }
 
+/// A preset or a file with means can be shown without means by one override.
+#[test]
+fn an_override_that_shows_no_means_removes_the_periphery_of_the_text() {
+    let text = "[render]\nirrelevant = \"mean\"\n[periphery]\nblocks = 4\nlevel = 3\n";
+    let with = |text: &str, overrides: &[&str]| {
+        let config = DesignConfig::from_toml_with(text, overrides).unwrap();
+        config.validate().map(|design| design.config())
+    };
+    for shown in ["hold", "zero"] {
+        let shown = format!("render.irrelevant={shown}");
+        let others = ["frame.pixel_bits=10", "temporal.level=7"];
+        for more in [&others[..0], &others[..1], &others] {
+            let overrides = [&[shown.as_str()], more].concat();
+            assert_eq!(with(text, &overrides).unwrap(), with("", &overrides).unwrap());
+        }
+        // The periphery of an override stays, and is an error.
+        let refused = with(text, &[&shown, "periphery.level=2"]).unwrap_err().to_string();
+        assert!(refused.contains("`periphery.level` = 2 cannot be combined"), "{refused}");
+    }
+    let kept = with(text, &["render.irrelevant=mean", "temporal.level=7"]).unwrap();
+    assert_eq!(kept.camera.periphery.blocks, Some(4));
+    // A file is checked as it stands.
+    let wrong = text.replace("mean", "hold");
+    assert!(with(&wrong, &["temporal.level=7"]).is_err());
+}
+
 #[test]
 fn an_input_gives_its_size_unless_the_file_names_another() {
     let mut open = DesignConfig::default();

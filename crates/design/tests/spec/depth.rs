@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tests of thresholds in grey levels at different depths of pixels.
 
+use std::ops::RangeInclusive;
+
 use foveate_design::{
     CameraConfig, Decimal, Design, DesignConfig, FeatureKind, Organization, PRESETS, SpatialConfig,
     SpatialFeature,
@@ -35,6 +37,12 @@ fn config_of_feature(kind: FeatureKind) -> String {
         return feature;
     }
     format!("{feature}[hardware]\norganization = \"serial\"\n")
+}
+
+/// Returns the depths at which the defaults are valid. The default mean of `segment` has no fraction
+/// bits, and pixels of 1 bit need one.
+fn valid_depths(text: &str) -> RangeInclusive<u32> {
+    if text.contains("segment") { 2..=16 } else { 1..=16 }
 }
 
 /// Fingerprints are written to generated cores and to results. They change only if the text of a
@@ -73,7 +81,7 @@ fn fingerprints_of_8_bits_do_not_change() {
 fn defaults_follow_the_depth_and_are_within_reach_at_every_one() {
     for (name, text) in base_configs() {
         let eight = design(&text, &[]);
-        for bits in 1..=16 {
+        for bits in valid_depths(&text) {
             let own = design(&text, &[&format!("frame.pixel_bits={bits}")]);
             // A level is the same fraction of 2^P as the level at 8 bits is of 256, rounded down to
             // a whole level.
@@ -100,6 +108,9 @@ fn defaults_of_some_depths_by_hand() {
         let mut config = CameraConfig::default();
         config.frame.pixel_bits = bits;
         config.spatial = FeatureKind::ALL.iter().map(|&kind| SpatialConfig::new(kind)).collect();
+        for entry in config.spatial.iter_mut().filter(|entry| entry.has_mean_fraction()) {
+            entry.mean_fraction_bits = Some(1);
+        }
         let camera = config.validate().unwrap();
         let mut levels = vec![camera.temporal().level];
         levels.extend(camera.features().iter().filter_map(SpatialFeature::level));
@@ -134,7 +145,7 @@ fn defaults_of_some_depths_by_hand() {
 fn a_file_with_every_key_follows_an_override_of_the_depth() {
     for (name, text) in base_configs() {
         let every_key = design(&text, &[]).config();
-        for bits in 1..=16 {
+        for bits in valid_depths(&text) {
             let bits = format!("frame.pixel_bits={bits}");
             let short = design(&text, &[&bits]);
             assert_eq!(design(&every_key.to_toml(), &[&bits]), short, "{name}, {bits}");
@@ -183,7 +194,7 @@ fn what_no_pixel_can_reach_is_refused_with_the_value_to_use() {
         ),
         (
             [five, "spatial=[{feature=\"segment\",level=31}]"],
-            "`spatial[0].level` = 31 is out of range; the valid range is 0..=30 (pixels of 5 bits reach 31) for `segment`; 31 at 8 bits is 3 at 5 bits",
+            "`spatial[0].level` = 31 is out of range; the valid range is 0..=14 (pixels of 5 bits reach 31, and some must be above and some below their mean) for `segment`; 31 at 8 bits is 3 at 5 bits",
         ),
         (
             [five, "spatial=[{feature=\"segment\",min_score=33}]"],
@@ -208,6 +219,47 @@ fn what_no_pixel_can_reach_is_refused_with_the_value_to_use() {
     ] {
         assert_eq!(refusal("", &overrides), message);
     }
+}
+
+/// A region has pixels above and pixels below its mean by more than a level only if the level is less
+/// than half of the range of pixels. With the largest valid level such a region exists.
+#[test]
+fn the_level_of_segment_leaves_room_on_both_sides_of_the_mean() {
+    let range = |level: u32, bits: u32, fraction: u32| {
+        let entry = format!(
+            "spatial=[{{feature='segment',level={level},min_score=1,mean_fraction_bits={fraction}}}]"
+        );
+        config_with("", &[&format!("frame.pixel_bits={bits}"), &entry]).validate()
+    };
+    for (bits, fraction, largest) in
+        [(8, 0, 126), (8, 1, 127), (8, 6, 127), (2, 0, 0), (2, 3, 1), (1, 1, 0), (16, 0, 32_766)]
+    {
+        assert!(range(largest, bits, fraction).is_ok(), "{bits} {fraction}");
+        let refused = range(largest + 1, bits, fraction).unwrap_err().to_string();
+        assert!(refused.contains(&format!("the valid range is 0..={largest} (")), "{refused}");
+        assert!(some_region_votes(largest, bits, fraction), "{bits} {fraction}");
+        assert!(!some_region_votes(largest + 1, bits, fraction), "{bits} {fraction}");
+    }
+    assert_eq!(
+        range(0, 1, 0).unwrap_err().to_string(),
+        "`spatial[0].mean_fraction_bits` = 0 cannot be combined with frame.pixel_bits = 1 of `segment`, which could not vote; set spatial[0].mean_fraction_bits = 1 or more"
+    );
+    let always = "spatial=[{feature='segment',level=1,min_score=0}]";
+    assert!(config_with("", &["frame.pixel_bits=1", always]).validate().is_ok());
+}
+
+/// Returns true if `segment` has a score above 0 in some region of 64 pixels, by the formula of the
+/// contract. If any region has one, so has a region of black and white pixels and one grey pixel.
+fn some_region_votes(level: u32, bits: u32, fraction: u32) -> bool {
+    let (max, unit) = ((1_u64 << bits) - 1, 1_u64 << fraction);
+    let level = u64::from(level);
+    (1..63).any(|white| {
+        (0..=max.min(300)).any(|grey| {
+            let sum = white * max + grey;
+            let mean = (unit * sum + 32) / 64;
+            unit * max > mean + unit * level && unit * level < mean
+        })
+    })
 }
 
 /// If a score passes its minimum without any hit, its level has no effect and may be any value that

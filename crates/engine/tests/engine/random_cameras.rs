@@ -75,6 +75,16 @@ fn small(max: u32) -> impl Strategy<Value = u32> {
     prop_oneof![2 => 0..=max.min(4), 2 => 0..=max / 4, 1 => 0..=max]
 }
 
+/// Returns the number of valid levels of `segment`, and the largest minimum. Pixels of 1 bit are never
+/// on both sides of a mean without a fraction, with which only the minimum 0 is valid.
+fn segment_ranges(max: u32, fraction_bits: u32, half: u32) -> (u32, u32) {
+    match (max.div_ceil(2), fraction_bits) {
+        (1, 0) => (1, 0),
+        (levels, 0) => (levels - 1, half),
+        (levels, _) => (levels, half),
+    }
+}
+
 fn feature(
     kind: FeatureKind,
     side: u32,
@@ -90,7 +100,10 @@ fn feature(
         FeatureKind::Range => (0, small(max).boxed()),
         FeatureKind::Surface => (0, small(max / 2).boxed()),
         FeatureKind::Flow => (0, small(max / 3).boxed()),
-        FeatureKind::Segment => (max, small(n / 2).boxed()),
+        FeatureKind::Segment => {
+            let (levels, minimum_max) = segment_ranges(max, fraction_bits, n / 2);
+            (levels, small(minimum_max).boxed())
+        }
     };
     (small(level_max.saturating_sub(1)), minimum, 1..=3.min(side - 1))
         .prop_map(move |(level, minimum, radius)| SpatialConfig {

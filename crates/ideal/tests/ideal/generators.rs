@@ -112,7 +112,9 @@ fn feature(kind: FeatureKind, side: u32, bits: u32, fraction: u32) -> BoxedStrat
         FeatureKind::Range => (0, 100, max),
         FeatureKind::Surface => (0, 100, max / 2),
         FeatureKind::Flow => (0, 100, max / 3),
-        FeatureKind::Segment => (max, 1, n / 2),
+        // Pixels of 1 bit are never on both sides of a mean without a fraction.
+        FeatureKind::Segment if max == 1 && fraction == 0 => (1, 1, 0),
+        FeatureKind::Segment => (max.div_ceil(2) - u32::from(fraction == 0), 1, n / 2),
     };
     // Minima in grey levels have two digits after the decimal point.
     let decimal = move |whole: u32, part: u32| {

@@ -291,7 +291,12 @@ fn arbitrary_feature(
             (0, small_numbers(200).prop_map(move |permille| permille * max * max).boxed())
         }
         "surface" => (0, small_numbers(500).prop_map(move |permille| permille * max).boxed()),
-        "segment" => (max - 1, small_numbers(n / 2).prop_map(|pixels| 1000 * pixels).boxed()),
+        // Pixels of 1 bit are never on both sides of a mean without a fraction.
+        "segment" if max == 1 && fraction_bits == 0 => (0, Just(0).boxed()),
+        "segment" => {
+            let levels = (max + 1) / 2 - i64::from(fraction_bits == 0);
+            (levels - 1, small_numbers(n / 2).prop_map(|pixels| 1000 * pixels).boxed())
+        }
         "flow" => (0, small_numbers(300).prop_map(move |permille| permille * max).boxed()),
         _ => panic!("`{name}` needs thresholds that some regions reach"),
     };
