@@ -295,7 +295,12 @@ fn the_next_run_removes_what_a_killed_one_left() {
         (0..3).for_each(|_| clip.extend([b"FRAME\n".as_slice(), &[7; 256]].concat()));
         std::io::Write::write_all(child.stdin.as_mut().unwrap(), &clip).unwrap();
         let begun = std::time::Instant::now();
-        while !names().iter().any(|name| name.starts_with(&format!(".{out}.partial-"))) {
+        // The folder for the work is made after the lock.
+        let works = |name: &String| {
+            name.starts_with(&format!(".{out}.partial-"))
+                && dir.path().join(name).join("work").is_dir()
+        };
+        while !names().iter().any(works) {
             assert!(child.try_wait().unwrap().is_none(), "it has ended");
             assert!(begun.elapsed().as_secs() < 30, "it does not begin");
             std::thread::sleep(std::time::Duration::from_millis(5));
