@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Makes the networks of the page "What it saves" as ONNX files, with weights from a fixed seed.
+"""Makes the networks of the page "Savings" as ONNX files, with weights from a fixed seed.
 
     networks.py FOLDER [NAME...] [--size WIDTHxHEIGHT] [--int8]
 
