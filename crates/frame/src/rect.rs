@@ -5,7 +5,7 @@
 pub const MAX_COORDINATE: f64 = 1e7;
 
 /// A rectangle. `x1` and `y1` are its exclusive ends, so that its width is `x1 - x0`.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rect {
     /// The coordinate of the left side.
     pub x0: f64,

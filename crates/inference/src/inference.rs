@@ -14,7 +14,7 @@ use crate::recording::{OutputRecorder, RecordOptions};
 use crate::run::{FinishedRun, InferenceRun, RunComparisons, RunFiles, RunMetadata};
 use crate::runner::{ExecutorMode, NetworkRunner};
 use crate::summary::InferenceSummary;
-use crate::table_columns::{DETECTIONS, FRAMES, LAYERS, TRIALS, table};
+use crate::table_columns::{FRAMES, LAYERS, TRIALS, detection_table, table};
 use crate::tuning::{TunedLimits, tune};
 use crate::whole_frames::WholeFrameComparison;
 use crate::{Computation, InferenceError, VisionNetwork, VisionOptions};
@@ -256,7 +256,7 @@ fn write_tables_and_charts(
     tables.push(("frames", table(Some("frame"), FRAMES, of_frames)));
     tables.extend(tried.map(|tried| ("tuning", tried)));
     if let Some(detected) = detected {
-        tables.push(("detections", table(None, DETECTIONS, (0..).zip(&detected.rows))));
+        tables.push(("detections", detection_table(&detected.rows)));
     }
     for (name, table) in tables {
         let file = format!("{name}.parquet");

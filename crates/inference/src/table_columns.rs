@@ -287,10 +287,22 @@ pub(crate) fn table<'a, T: 'a>(
 ) -> Table {
     let row = |(at, row): (u64, &T)| -> NamedCells {
         let number = number.map(|name| (name.to_owned(), TableCell::Count(Some(at))));
-        let filed = columns.iter().filter(|column| column.is_in_files);
-        let cells =
-            filed.map(|column| (column.heading.key.to_owned(), (column.value)(row).into_cell()));
-        number.into_iter().chain(cells).collect()
+        number.into_iter().chain(file_cells(columns, row)).collect()
     };
     Table::from_rows(rows.map(row))
+}
+
+/// Creates the table of detections, which has its columns even if the network finds nothing.
+pub(crate) fn detection_table(rows: &[DetectionRow]) -> Table {
+    let example = file_cells(DETECTIONS, &DetectionRow::default()).collect();
+    table(None, DETECTIONS, (0..).zip(rows)).with_columns_of(example)
+}
+
+/// Returns the cells of a row that are in files.
+fn file_cells<T>(
+    columns: &[FigureColumn<T>],
+    row: &T,
+) -> impl Iterator<Item = (String, TableCell)> {
+    let filed = columns.iter().filter(|column| column.is_in_files);
+    filed.map(|column| (column.heading.key.to_owned(), (column.value)(row).into_cell()))
 }

@@ -25,13 +25,16 @@ pub struct Table {
     pub columns: Vec<String>,
     /// The values of every row, in the order of the columns.
     pub rows: Vec<Vec<TableCell>>,
+    /// A row whose cells show the types of the columns.
+    example: Vec<TableCell>,
 }
 
 /// The cells of a row with their column names.
 pub type NamedCells = Vec<(String, TableCell)>;
 
 impl Table {
-    /// Makes a table from rows that have the same columns.
+    /// Makes a table from rows that have the same columns. If there may be no rows,
+    /// [`Self::with_columns_of`] gives the table its columns.
     #[must_use]
     pub fn from_rows(rows: impl Iterator<Item = NamedCells>) -> Self {
         let mut table = Self::default();
@@ -40,7 +43,18 @@ impl Table {
             table.columns = columns;
             table.rows.push(cells);
         }
+        table.example = table.rows.first().cloned().unwrap_or_default();
         table
+    }
+
+    /// Takes the columns from `example`, a row that is not in the table, if the table has no rows.
+    /// Its files then have the names and the types of the columns all the same.
+    #[must_use]
+    pub fn with_columns_of(mut self, example: NamedCells) -> Self {
+        if self.rows.is_empty() {
+            (self.columns, self.example) = example.into_iter().unzip();
+        }
+        self
     }
 
     /// Returns the table as CSV with a line of names.
@@ -56,9 +70,8 @@ impl Table {
     /// # Errors
     /// Fails if Parquet does not allow the name of a column.
     pub fn to_parquet(&self, message: &str) -> io::Result<Vec<u8>> {
-        // The cells of the first row show the types of the columns.
-        let cells = self.rows.first().into_iter().flatten();
-        let columns = self.columns.iter().zip(cells).map(|(name, cell)| cell.column(name));
+        let cells = self.columns.iter().zip(&self.example);
+        let columns = cells.map(|(name, cell)| cell.column(name));
         let mut file = ParquetWriter::new(Vec::new(), message, &columns.collect::<Vec<_>>())?;
         for row in &self.rows {
             file.push(row.iter().map(TableCell::value));
@@ -90,5 +103,42 @@ impl TableCell {
             Self::Flag(flag) => TableValue::Flag(*flag),
             Self::Count(None) | Self::Real(None) => TableValue::None,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Write as _;
+
+    use parquet::file::reader::{FileReader, SerializedFileReader};
+
+    use super::*;
+
+    fn row(name: &str, count: u64) -> NamedCells {
+        let cells = [
+            ("name", TableCell::Text(name.to_owned())),
+            ("count", TableCell::Count(Some(count))),
+            ("share", TableCell::Real(None)),
+            ("holds", TableCell::Flag(true)),
+        ];
+        cells.map(|(name, cell)| (name.to_owned(), cell)).into()
+    }
+
+    #[test]
+    fn a_table_without_rows_has_the_columns_of_one_with_rows() {
+        let full = Table::from_rows([row("a", 3)].into_iter()).with_columns_of(row("other", 4));
+        let empty = Table::from_rows(std::iter::empty()).with_columns_of(row("other", 4));
+        assert_eq!(full.to_csv(), "name,count,share,holds\na,3,,true\n");
+        assert_eq!(empty.to_csv(), "name,count,share,holds\n");
+        let [full, empty] = [full, empty].map(|table| {
+            let mut file = tempfile::tempfile().unwrap();
+            file.write_all(&table.to_parquet("rows").unwrap()).unwrap();
+            let reader = SerializedFileReader::new(file).unwrap();
+            let about = reader.metadata().file_metadata().clone();
+            (about.schema().clone(), about.num_rows())
+        });
+        assert_eq!((full.1, empty.1), (1, 0));
+        assert_eq!(full.0, empty.0);
+        assert_eq!(empty.0.get_fields().len(), 4);
     }
 }

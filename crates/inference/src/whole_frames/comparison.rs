@@ -48,7 +48,7 @@ pub(crate) struct CountedDetections {
 }
 
 /// A row of the table of detections.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct DetectionRow {
     pub(crate) clip: String,
     pub(crate) frame: u64,

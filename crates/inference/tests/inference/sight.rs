@@ -117,6 +117,25 @@ fn means_keep_objects_that_black_regions_lose() {
     assert!(page.matches("class=\"kept\"").count() > 10);
 }
 
+#[test]
+fn the_table_of_a_network_that_finds_nothing_has_its_columns() {
+    let dir = tempfile::tempdir().unwrap();
+    let network = bright_squares(dir.path());
+    let header = |detector: &str| {
+        let (network, detector) = (Some(network.as_path()), parse_detector(detector));
+        let run = RunSetup { network, detector: Some(detector.unwrap()), ..RunSetup::default() };
+        let sight = RunSetup { sight: true, ..run }.write(dir.path()).unwrap().sight.unwrap();
+        let table = std::fs::read_to_string(dir.path().join("out/detections.csv")).unwrap();
+        let lines: Vec<_> = table.lines().map(str::to_owned).collect();
+        assert_eq!(lines.len() == 1, sight.detections.unwrap().all.whole == 0);
+        lines[0].clone()
+    };
+    let found = header("fastestdet,score=0.6");
+    assert!(found.starts_with("clip,frame,name,whole,both,class,score,"), "{found}");
+    assert_eq!(header("fastestdet,score=0.999999"), found);
+    assert!(rows(dir.path(), "detections.parquet").is_empty());
+}
+
 /// Noise is added to a few frames that are spread evenly. Larger noise loses more detections. The
 /// smallest noise changes nothing, so all detections are found again.
 #[test]

@@ -4,7 +4,7 @@
 use foveate_frame::Rect;
 
 /// An object that a network detects.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Detection {
     /// The number of the class, from 0.
     pub class: usize,
