@@ -61,6 +61,13 @@ step_netlists() {
     foveate cosim --netlist "${raster[@]}"
     foveate cosim --netlist "${raster[@]}" --set "hardware.pipelining='deep'" --set "temporal.reference='last-sent'" \
         --set "render.payload='raw'"
+    # The features and filters that the presets do not have.
+    local small=(--rounds 1 --set region.size=4 --set frame.pixel_bits=4) features="{feature='surface'},{feature='segment',min_score=3,mean_fraction_bits=2}"
+    foveate cosim --netlist --preset bare "${small[@]}" --set "spatial=[$features]" --set "denoise.filter='switching3x3'"
+    foveate cosim --netlist --preset bare "${small[@]}" --level rcm --grid 3x2 --set "spatial=[$features,{feature='flow',radius=2}]" \
+        --set "denoise.filter='binomial3x3'" --set "hardware.organization='serial'" --set hardware.fold=2
+    foveate cosim --netlist --preset bare "${small[@]}" --level rcm --grid 4x3 --set "spatial=[$features]" \
+        --set "denoise.filter='binomial3x3'" --set "hardware.organization='raster'" --set "hardware.pipelining='deep'"
 }
 step_area() { foveate estimate --compare --markdown; }
 step_lint() { scripts/lint.sh && scripts/checks/area_growth.py; }
