@@ -247,7 +247,7 @@ impl SpatialEntry<'_> {
     }
 
     fn fraction_bits(&self, n: u64) -> Result<u32, ConfigError> {
-        let max = crate::width::index_bits(n);
+        let (side, max) = (n.isqrt(), crate::width::index_bits(n));
         let applies = self.config.feature.defaults().mean_fraction_bits.is_some();
         match self.config.mean_fraction_bits {
             None => Ok(0),
@@ -256,7 +256,7 @@ impl SpatialEntry<'_> {
             Some(bits) => Err(self.out_of_range_error(
                 "mean_fraction_bits",
                 &bits,
-                &format!("0..={max} (regions of {n} pixels)"),
+                &format!("0..={max} (regions of {side}x{side} pixels)"),
                 "",
             )),
         }
@@ -274,7 +274,7 @@ impl SpatialEntry<'_> {
             Some(radius) => Err(self.out_of_range_error(
                 "radius",
                 &radius,
-                &format!("{}..={} (regions of {n} pixels)", valid.start(), valid.end()),
+                &format!("{}..={} (regions of {side}x{side} pixels)", valid.start(), valid.end()),
                 "",
             )),
         }
