@@ -80,7 +80,7 @@ if [ "${1:-}" != --quick ]; then
         "paper $deep --rounds 4 --set temporal.reference='last-sent' --set spatial=$all"
         "paper $raster --grid 4x3 --set region.size=4"
         "paper $raster --grid 5x6 --rounds 6 --set region.size=5 --set denoise.filter='none' --set spatial=[$fraction,{feature='variance',min_score=30}] --set temporal.reference='last-sent'"
-        "paper $raster --grid 8x3 $deep --set region={size=8,neighborhood='shared'} --set frame={width=222,height=222} --set hardware.pixels_per_clock=4 --set spatial=$all --set decision.combine='all' --set temporal.reference='last-sent' --set render={payload='raw',irrelevant='hold'}"
+        "bare $raster --grid 8x3 $deep --set region={size=8,neighborhood='shared'} --set frame={width=222,height=222} --set hardware.pixels_per_clock=4 --set spatial=$all --set decision.combine='all' --set temporal.reference='last-sent' --set render={payload='raw',irrelevant='hold'}"
         "paper $raster --grid 8x2 --set region.size=8 --set frame={width=218,height=222} --set hardware.pixels_per_clock=4 --set hardware.store='external'"
         "bare $raster --grid 5x3 $deep --set region.size=5 --set frame={width=222,height=222} --set hardware.store='single-port' --set spatial=[$corner]"
         "bare $raster --grid 4x3 $deep --set region.size=6 --set frame={width=224,height=222} --set hardware.forward=false --set spatial=[{feature='mad',min_score=4}]"

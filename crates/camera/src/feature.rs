@@ -239,8 +239,8 @@ impl SpatialEntry<'_> {
             key: self.key("mean_fraction_bits"),
             value: "0".to_owned(),
             with: format!(
-                "frame.pixel_bits = {} of `{}`, which could not vote",
-                self.bits, self.config.feature
+                "frame.pixel_bits = {}, because no region would have pixels on both sides of its mean",
+                self.bits
             ),
             remedy: format!("set {} = 1 or more", self.key("mean_fraction_bits")),
         }

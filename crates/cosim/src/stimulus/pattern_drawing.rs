@@ -4,6 +4,19 @@
 use super::random::Random;
 use super::stimulus_pattern::{PatternGenerator, Texture, shift_pixel};
 
+/// The rows of the tile of [`Texture::Mosaic`], with the left pixel in the highest bit. A search by
+/// simulated annealing found it; no better tile is known.
+const MOSAIC: [u8; 8] = [
+    0b1010_1101,
+    0b0010_1010,
+    0b1110_1011,
+    0b0001_0100,
+    0b1110_1011,
+    0b0001_0100,
+    0b1101_0101,
+    0b0100_1010,
+];
+
 impl PatternGenerator {
     /// Returns a square whose pixels are a function of the largest pixel and the place.
     pub(super) fn fill(&self, mut value: impl FnMut(u16, (usize, usize)) -> u16) -> Vec<u16> {
@@ -72,6 +85,7 @@ impl PatternGenerator {
                 Texture::Columns(width) => extreme(x / width % 2 == 1),
                 Texture::Rows(height) => extreme(y / height % 2 == 1),
                 Texture::Dots(size, period) => extreme(x % period < size && y % period < size),
+                Texture::Mosaic => extreme(MOSAIC[y % 8] >> (7 - x % 8) & 1 == 1),
                 Texture::Halves => extreme(x >= side / 2),
                 Texture::Quadrant => extreme(x < side / 2 && y < side / 2),
                 Texture::Ramp => {

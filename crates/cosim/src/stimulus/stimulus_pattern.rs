@@ -74,6 +74,9 @@ pub(crate) enum Texture {
     Rows(usize),
     /// Bright squares of `.0` pixels a side, with a period of `.1` pixels.
     Dots(usize, usize),
+    /// A tile of 8x8 dark and bright pixels, repeated. In each direction of `surface`, at least 40 of
+    /// the 64 pixels of a tile differ from their neighbors, which repeat at the border.
+    Mosaic,
     /// A dark left half and a bright right half, which give the largest deviations.
     Halves,
     /// One bright quadrant.
@@ -292,8 +295,10 @@ pub(super) fn shift_pixel(pixel: u16, amount: u16, up: bool, max: u16) -> u16 {
 mod tests {
     use super::*;
     use foveate_design::DesignConfig;
+    use foveate_frame::Frame;
+    use foveate_model::FunctionalCamera;
 
-    const ALL: [StimulusPattern; 29] = [
+    const ALL: [StimulusPattern; 30] = [
         StimulusPattern::Zero,
         StimulusPattern::Max,
         StimulusPattern::Flat,
@@ -301,6 +306,7 @@ mod tests {
         StimulusPattern::Texture(Texture::Columns(2)),
         StimulusPattern::Texture(Texture::Rows(3)),
         StimulusPattern::Texture(Texture::Dots(2, 4)),
+        StimulusPattern::Texture(Texture::Mosaic),
         StimulusPattern::Texture(Texture::Halves),
         StimulusPattern::Texture(Texture::Quadrant),
         StimulusPattern::Texture(Texture::Ramp),
@@ -324,6 +330,20 @@ mod tests {
         StimulusPattern::MovingPixel,
         StimulusPattern::Moved,
     ];
+
+    /// With 8x8 pixels of 8 bits the score of `surface` has 14 bits, and noise reaches 13 of them.
+    #[test]
+    fn the_mosaic_reaches_the_highest_bit_of_surface() {
+        let toml = "frame={width=8,height=8}\ndenoise.filter='none'\nspatial=[{feature='surface'}]";
+        let design = DesignConfig::from_toml(toml).unwrap().validate().unwrap();
+        let mut generator = PatternGenerator::new(&design, 8, Random::new(1));
+        generator.draw(StimulusPattern::Texture(Texture::Mosaic));
+        let frame = Frame::new(8, 8, 8, generator.pixels.clone()).unwrap();
+        let score = FunctionalCamera::new(&design).step(&frame).unwrap().scores[0][0];
+        assert_eq!(score, 40 * 255);
+        assert_eq!(design.features()[0].score_bits(), 14);
+        assert!(score >= 1 << 13);
+    }
 
     #[test]
     fn every_pattern_stays_in_range_at_every_size_and_depth() {

@@ -12,7 +12,7 @@ use super::frame_delivery::FrameDelivery;
 use super::sequence_end::SequenceEnd;
 use super::stimulus_pattern::{StimulusPattern, Texture};
 use super::threshold_aimer::ThresholdAim;
-use foveate_design::{Design, Hardware};
+use foveate_design::{Design, FeatureKind, Hardware};
 
 const CHECKERBOARD: StimulusPattern = StimulusPattern::Texture(Texture::Checkers(1));
 
@@ -116,6 +116,16 @@ const fn certain_sequences() -> [FrameSequence; 2] {
     ]
 }
 
+/// Returns a sequence in which the score of `surface` reaches its highest bit, if no filter smooths the
+/// pixels.
+const fn rough_sequence() -> FrameSequence {
+    use StimulusPattern::{Same, Zero};
+    const MOSAIC: StimulusPattern = StimulusPattern::Texture(Texture::Mosaic);
+    let patterns = &[MOSAIC, Zero, MOSAIC, Same];
+    let rough = FrameSequence::with_aim(ThresholdAim::Independent, "largest surface", patterns);
+    FrameSequence { is_mixed: false, ..rough }
+}
+
 /// Returns all sequences of a design, the most telling first. Sequences of damaged frames are behind
 /// the others, if the simulated hardware synchronizes to the start of a frame.
 pub(super) fn sequences(design: &Design, has_frame_sync: bool) -> Vec<FrameSequence> {
@@ -125,6 +135,9 @@ pub(super) fn sequences(design: &Design, has_frame_sync: bool) -> Vec<FrameSeque
         Hardware::Raster(own) => raster::sequences(design.with_hardware(own)),
     };
     sequences.extend(certain_sequences());
+    if design.feature_kinds().contains(&FeatureKind::Surface) {
+        sequences.push(rough_sequence());
+    }
     if has_frame_sync {
         sequences.extend(damaged::sequences());
     }
