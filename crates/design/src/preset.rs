@@ -45,7 +45,7 @@ pub const PRESETS: &[Preset] = &[
     Preset {
         name: "fovea",
         summary: "pixels where it matters and the means of 2x2 blocks elsewhere, without denoising",
-        toml: "[denoise]\nfilter = \"none\"\n\n[temporal]\nreference = \"last-sent\"\n\n[render]\nirrelevant = \"mean\"\n",
+        toml: FOVEA,
     },
     Preset {
         name: "seamless",
@@ -63,6 +63,25 @@ pub const PRESETS: &[Preset] = &[
         toml: "[frame]\nwidth = 640\nheight = 480\n\n[hardware]\norganization = \"raster\"\nsync = true\n",
     },
 ];
+
+/// The TOML of `fovea`. Its thresholds come from measurements, which docs/guides/indexes.md shows.
+const FOVEA: &str = r#"[denoise]
+filter = "none"
+
+[[spatial]]
+feature = "edge"
+min_score = 4
+
+[temporal]
+level = 16
+reference = "last-sent"
+
+[render]
+irrelevant = "mean"
+
+[periphery]
+level = 1
+"#;
 
 impl Preset {
     /// Returns the preset of that name.

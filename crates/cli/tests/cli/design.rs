@@ -34,7 +34,7 @@ fn a_periphery_is_checked_and_generated() {
     let fovea = ["--preset", "fovea", "--set", "frame={width=32,height=24}"];
     let text = run_successfully(dir.path(), &[&["check"], &fovea[..]].concat());
     let words = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    let line = "periphery the means of 2x2 blocks of 4x4 pixels where SRS is 0, sent again when one differs by more than 4";
+    let line = "periphery the means of 2x2 blocks of 4x4 pixels where SRS is 0, sent again when one differs by more than 1";
     assert!(words.contains(line), "{text}");
     assert!(!run_successfully(dir.path(), &["check"]).contains("periphery"));
 
