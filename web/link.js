@@ -45,9 +45,23 @@ export function readLink(fragment) {
     const start = { ...preset };
     if (changed.some(([key]) => isFeature(key))) start.spatial = [];
     if (changed.some(([key]) => key === ORGANIZATION_KEY)) start.hardware = {};
-    return changed.reduce((config, [key, value]) => setKey(config, key, value), start);
+    return withFittingMeans(changed.reduce((config, [key, value]) => setKey(config, key, value), start), changed.map(([key]) => key));
   };
   return { pageSettings, network, apply };
+}
+
+/** Returns a configuration without what the preset says of means where it does not fit the changed keys: all of it in a camera without means, and a
+ *  number of means that does not divide the side of a region. What the link itself says stays, and is an error. */
+function withFittingMeans(config, keys) {
+  const { periphery, ...others } = config, { render, region } = config;
+  const isNamed = name => keys.includes(`periphery.${name}`);
+  if (!periphery) return config;
+  if (render?.irrelevant !== "mean") {
+    const named = Object.entries(periphery).filter(([name]) => isNamed(name));
+    return named.length ? { ...others, periphery: Object.fromEntries(named) } : others;
+  }
+  const fits = isNamed("blocks") || region?.size % periphery.blocks === 0;
+  return fits ? config : { ...config, periphery: { ...periphery, blocks: undefined } };
 }
 
 function decodeValue(key, text) {

@@ -317,6 +317,16 @@ def test_a_link_restores_all_settings(still):
     assert control(other, "preset", "select").input_value() == "paper"
 
 
+@pytest.mark.parametrize("change", ['render.irrelevant="hold"', 'render.irrelevant="zero"', "region.size=15"])
+def test_a_link_leaves_out_means_that_do_not_fit(still, change):
+    """Preset fovea has means of 2x2 blocks, and a link names only the keys that differ from the preset."""
+    page = still(f"#size={WIDTH}x{HEIGHT}&preset=fovea&{urllib.parse.quote(change, safe='=.')}")
+    size = f"frame={{width={WIDTH},height={HEIGHT}}}"
+    assert page.evaluate("foveate.camera.facts.fingerprint") in foveate("check", "--preset", "fovea", "--set", size, "--set", change)
+    refused = still(f"#size={WIDTH}x{HEIGHT}&preset=fovea&render.irrelevant=%22hold%22&periphery.level=2")
+    assert "periphery.level" in shown(refused, "cannot be combined")
+
+
 @pytest.mark.parametrize(
     ("link", "message"),
     [

@@ -52,8 +52,9 @@ impl Camera {
             if let Some(level) = feature.largest_level() {
                 bounds.push((key("level"), KeyBound::whole_maximum(level)));
             }
-            let needs_zero =
-                feature.kind().is_displacement() && self.config().references_need_displacement();
+            let needs_zero = feature.needs_zero_minimum(self.pixel_max())
+                || (feature.kind().is_displacement()
+                    && self.config().references_need_displacement());
             let largest =
                 if needs_zero { Decimal::from_whole(0) } else { feature.largest_min_score() };
             let whole = feature.kind().score_unit().is_count();
@@ -104,6 +105,8 @@ mod tests {
             vec![SEGMENT, "region.size=3"],
             vec![SEGMENT, "spatial.0.mean_fraction_bits=2", "spatial.0.level=127"],
             vec![SEGMENT, "spatial.0.mean_fraction_bits=1", "frame.pixel_bits=1"],
+            vec![SEGMENT, "spatial.0.min_score=0", "spatial.0.level=200"],
+            vec!["spatial=[{feature=\"segment\",min_score=0}]", "frame.pixel_bits=1"],
             vec!["spatial=[{feature=\"flow\",min_score=0}]", "temporal.reference=\"last-sent\""],
         ] {
             let camera = |more: &str| {
@@ -140,6 +143,6 @@ mod tests {
                 keys += 1;
             }
         }
-        assert_eq!(keys, 4 + 18 + 18 + 16 + 4 + 3 * 5 + 4);
+        assert_eq!(keys, 4 + 18 + 18 + 16 + 4 + 5 * 5 + 4);
     }
 }

@@ -108,11 +108,19 @@ impl SpatialFeature {
     }
 
     /// Returns the largest valid level of the configuration, or `None` if the feature has no
-    /// per-pixel threshold. Some region can then have a score above 0, unless the minimum score is
-    /// 0, with which the feature always votes.
+    /// per-pixel threshold. With any valid level some region can have a score above 0. A feature with
+    /// a minimum score of 0 always votes, so every level is valid.
     #[must_use]
     pub fn largest_level(&self) -> Option<u32> {
         self.largest_level
+    }
+
+    /// Returns true if no region has a score above 0 with the level, so that only the minimum 0 is
+    /// valid.
+    pub(crate) fn needs_zero_minimum(&self, pixel_max: u32) -> bool {
+        let fraction_bits = self.mean.map_or(0, |mean| mean.fraction_bits);
+        let largest = self.kind.largest_deciding_level(pixel_max, fraction_bits);
+        self.level.is_some_and(|level| largest.is_none_or(|largest| level > largest))
     }
 
     /// Returns true if the level is too high for a mean that is a whole number.
@@ -242,7 +250,8 @@ impl SpatialEntry<'_> {
                 "frame.pixel_bits = {}, because no region would have pixels on both sides of its mean",
                 self.bits
             ),
-            remedy: format!("set {} = 1 or more", self.key("mean_fraction_bits")),
+            remedy: "set mean_fraction_bits = 1 or more in every feature that has this key"
+                .to_owned(),
         }
     }
 

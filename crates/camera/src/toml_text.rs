@@ -30,7 +30,9 @@ pub fn read<C: TomlConfig, S: AsRef<str>>(text: &str, overrides: &[S]) -> Result
         text.parse().map_err(|e: toml::de::Error| ConfigError::Syntax(syntax_message(&e)))?;
     let mut table = written.clone();
     apply_overrides(&mut table, overrides)?;
-    if shows_means(&written) && !shows_means(&table) && written.remove("periphery").is_some() {
+    if shows_means(&written) && !shows_means(&table) {
+        keys::refuse_unknown(&C::keys().collect::<Vec<_>>(), &written)?;
+        written.remove("periphery");
         table = written.clone();
         apply_overrides(&mut table, overrides)?;
     }

@@ -135,7 +135,8 @@ fn all_active(design: &Design) -> DesignConfig {
     config
 }
 
-/// Sets the level and the minimum of a feature to their largest values, so that it never votes.
+/// Sets the level and the minimum of a feature to their largest values, with which it votes for
+/// hardly any region.
 fn disable_feature(design: &Design, config: &mut DesignConfig, place: usize) {
     let (entry, feature) = (&mut config.camera.spatial[place], &design.features()[place]);
     entry.level = feature.largest_level();

@@ -75,7 +75,8 @@ pub(crate) enum Texture {
     /// Bright squares of `.0` pixels a side, with a period of `.1` pixels.
     Dots(usize, usize),
     /// A tile of 8x8 dark and bright pixels, repeated. In each direction of `surface`, at least 40 of
-    /// the 64 pixels of a tile differ from their neighbors, which repeat at the border.
+    /// the 64 pixels of a tile differ from their neighbors if pixels repeat at the border of the tile,
+    /// and at least 36 if other tiles surround it.
     Mosaic,
     /// A dark left half and a bright right half, which give the largest deviations.
     Halves,

@@ -270,6 +270,11 @@ fn an_override_that_shows_no_means_removes_the_periphery_of_the_text() {
         let refused = with(text, &[&shown, "periphery.level=2"]).unwrap_err().to_string();
         assert!(refused.contains("`periphery.level` = 2 cannot be combined"), "{refused}");
     }
+    let whole_table = with(text, &["render={irrelevant='hold'}"]).unwrap();
+    assert_eq!(whole_table, with("", &["render.irrelevant=hold"]).unwrap());
+    let misspelt = text.replace("level", "levle");
+    let refused = DesignConfig::from_toml_with(&misspelt, &["render.irrelevant=hold"]).unwrap_err();
+    assert!(refused.to_string().contains("periphery.levle"), "{refused}");
     let kept = with(text, &["render.irrelevant=mean", "temporal.level=7"]).unwrap();
     assert_eq!(kept.camera.periphery.blocks, Some(4));
     // A file is checked as it stands.

@@ -242,7 +242,7 @@ fn the_level_of_segment_leaves_room_on_both_sides_of_the_mean() {
     }
     assert_eq!(
         range(0, 1, 0).unwrap_err().to_string(),
-        "`spatial[0].mean_fraction_bits` = 0 cannot be combined with frame.pixel_bits = 1, because no region would have pixels on both sides of its mean; set spatial[0].mean_fraction_bits = 1 or more"
+        "`spatial[0].mean_fraction_bits` = 0 cannot be combined with frame.pixel_bits = 1, because no region would have pixels on both sides of its mean; set mean_fraction_bits = 1 or more in every feature that has this key"
     );
     let always = "spatial=[{feature='segment',level=1,min_score=0}]";
     assert!(config_with("", &["frame.pixel_bits=1", always]).validate().is_ok());

@@ -116,13 +116,13 @@ const fn certain_sequences() -> [FrameSequence; 2] {
     ]
 }
 
-/// Returns a sequence in which the score of `surface` reaches its highest bit, if no filter smooths the
-/// pixels.
+/// Returns a sequence in which the score of `surface` is large. In regions of 8x8, 16x16 and 32x32
+/// pixels it reaches its highest bit, if no filter smooths the pixels.
 const fn rough_sequence() -> FrameSequence {
     use StimulusPattern::{Same, Zero};
     const MOSAIC: StimulusPattern = StimulusPattern::Texture(Texture::Mosaic);
     let patterns = &[MOSAIC, Zero, MOSAIC, Same];
-    let rough = FrameSequence::with_aim(ThresholdAim::Independent, "largest surface", patterns);
+    let rough = FrameSequence::with_aim(ThresholdAim::Independent, "rough surface", patterns);
     FrameSequence { is_mixed: false, ..rough }
 }
 
