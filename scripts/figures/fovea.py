@@ -6,8 +6,8 @@
 
 NETWORK is one of the detectors that sight.py knows. It runs on every fifth of the first frames of each clip, on whole frames and on what
 the receiver sees, behind preset `fovea` with every combination of the values that --feature, --level, --min-score, --temporal and
---periphery give. A column compares the result with the network on whole frames: the share of their objects that are kept, the share of
-the detections that are right, and the bytes as a share of raw video. The rows go to standard output.
+--periphery give. Three columns have the share of the objects in whole frames that are kept, the share of the detections that are right, and
+the bytes as a share of raw video. The rows go to standard output.
 
 Needs `foveate` on the path (or its path in FOVEATE).
 """
