@@ -23,7 +23,7 @@ COLUMNS = ["network", "clip", "feature", "level", "min_score", "temporal_level",
            "right_percent", "sent_percent"]
 
 
-def camera(feature, level, minimum, temporal, periphery):
+def camera_options(feature, level, minimum, temporal, periphery):
     """Returns the options of a camera."""
     level_text = "" if level is None else f",level={level}"
     return ["--preset", "fovea", "--set", f'spatial=[{{feature="{feature}",min_score={minimum}{level_text}}}]',
@@ -35,7 +35,7 @@ def table_row(path, clip, settings, arguments):
     name = os.path.basename(path)
     framing, detector = NETWORKS[name]
     summary = foveate((path, (framing, detector)), clip, "--every", str(arguments.every), "--max-frames", str(arguments.first),
-                      "--noise", "0", "--threads", "1", "--detect", detector, *camera(*settings))
+                      "--noise", "0", "--threads", "1", "--detect", detector, *camera_options(*settings))
     sight = summary["sight"]
     found = sight["detections"]["all"]["whole"]
     shares = [f"{100 * sight['detections'][key]:.1f}" if found else "" for key in ("kept_share", "precision")]

@@ -26,6 +26,7 @@ import subprocess
 import sys
 import tempfile
 
+from fovea import camera_options
 from sight import NETWORKS, NOISE, frame_count
 
 # The levels of an index, if it has one, and the minimum scores that are tried.
@@ -39,7 +40,6 @@ INDEXES = {
     "segment": ([8], [1, 2, 3, 4, 6, 8, 10, 13, 16, 20, 24]),
     "flow": ([], [0.1, 0.25, 0.5, 1, 1.5, 2, 3, 4, 6, 8, 12]),
 }
-BASE = ["--preset", "fovea", "--set", "temporal.level=20", "--set", "periphery.level=1"]
 PREVIOUS = ["--set", 'temporal.reference="previous"']
 SERIAL = ["--set", 'hardware.organization="serial"']
 FRAMING = [*NETWORKS["yolox_nano.onnx"][0], "--detect", NETWORKS["yolox_nano.onnx"][1]]
@@ -59,9 +59,8 @@ def foveate(*words):
 
 def settings(index, level, minimum):
     """Returns the options of a camera."""
-    level_text = "" if level is None else f",level={level}"
-    camera = [*BASE, "--set", f'spatial=[{{feature="{index}",min_score={minimum}{level_text}}}]']
-    return camera if index != "flow" else [*camera, *PREVIOUS, *SERIAL]
+    options = camera_options(index, level, minimum, temporal=20, periphery=1)
+    return options if index != "flow" else [*options, *PREVIOUS, *SERIAL]
 
 
 def sent_percent(clips, camera):
