@@ -3,6 +3,7 @@
 // configuration, with what differs from the preset; values are TOML. Features differ as a whole, because they are numbered, and so does
 // the hardware with another organization, because each organization has keys of its own.
 
+import { withFittingMeans } from "./means.js";
 import { keysOf, valueOf, withKey } from "./toml.js";
 
 const PAGE_KEYS = ["source", "size", "preset"];
@@ -48,20 +49,6 @@ export function readLink(fragment) {
     return withFittingMeans(changed.reduce((config, [key, value]) => setKey(config, key, value), start), changed.map(([key]) => key));
   };
   return { pageSettings, network, apply };
-}
-
-/** Returns a configuration without what the preset says of means where it does not fit the changed keys: all of it in a camera without means, and a
- *  number of means that does not divide the side of a region. What the link itself says stays, and is an error. */
-function withFittingMeans(config, keys) {
-  const { periphery, ...others } = config, { render, region } = config;
-  const isNamed = name => keys.includes(`periphery.${name}`);
-  if (!periphery) return config;
-  if (render?.irrelevant !== "mean") {
-    const named = Object.entries(periphery).filter(([name]) => isNamed(name));
-    return named.length ? { ...others, periphery: Object.fromEntries(named) } : others;
-  }
-  const fits = isNamed("blocks") || region?.size % periphery.blocks === 0;
-  return fits ? config : { ...config, periphery: { ...periphery, blocks: undefined } };
 }
 
 function decodeValue(key, text) {

@@ -8,6 +8,7 @@ import { asPath, byId, copy, make, setText, withoutBackticks } from "./elements.
 import { Figures } from "./figures.js";
 import { showHardware } from "./hardware.js";
 import { linkToShare, readLink, writeLink } from "./link.js";
+import { withFittingMeans } from "./means.js";
 import { NetworkView } from "./network.js";
 import { withOrganization } from "./organization.js";
 import { PixelCamera } from "./pixel_camera.js";
@@ -116,11 +117,9 @@ function changeKey(key, value) {
 function withChange(key, value) {
   if (key === "frame.pixel_bits" && Number.isInteger(value) && value > 0) return withDepth(config, value, tables.features);
   const wish = withKey(config, key, value);
-  // A camera without means has no periphery table.
-  if (key === "render.irrelevant" && value !== "mean") delete wish.periphery;
-  // If the number of means does not divide the new side, the engine chooses another. The old number returns with a side that it divides.
-  if (key === "region.size" && wish.periphery) wish.periphery.blocks = value % means ? undefined : means;
-  return wish;
+  // The number of means that the last side did not allow returns with a side that it divides.
+  if (key === "region.size" && wish.periphery) wish.periphery.blocks = means;
+  return withFittingMeans(wish, [key]);
 }
 
 function toggleFeature(feature, on) {

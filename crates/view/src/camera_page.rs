@@ -20,10 +20,11 @@ macro_rules! web_files {
 }
 
 /// The modules of the page. Each comes after the modules that it imports.
-const MODULES: [&str; 21] = web_files![
+const MODULES: [&str; 22] = web_files![
     "engine.js",
     "elements.js",
     "toml.js",
+    "means.js",
     "link.js",
     "depth.js",
     "organization.js",
