@@ -115,18 +115,22 @@ impl SpatialFeature {
         self.largest_level
     }
 
-    /// Returns true if no region has a score above 0 with the level, so that only the minimum 0 is
-    /// valid.
+    /// Returns true if only a minimum score of 0 is valid, because no region has a score above 0 with
+    /// the level.
     pub(crate) fn needs_zero_minimum(&self, pixel_max: u32) -> bool {
-        let fraction_bits = self.mean.map_or(0, |mean| mean.fraction_bits);
-        let largest = self.kind.largest_deciding_level(pixel_max, fraction_bits);
-        self.level.is_some_and(|level| largest.is_none_or(|largest| level > largest))
+        self.never_scores(pixel_max, self.mean.map_or(0, |mean| mean.fraction_bits))
     }
 
-    /// Returns true if the level is too high for a mean that is a whole number.
+    /// Returns true if a mean without fraction bits is not valid.
     pub(crate) fn needs_mean_fraction(&self, pixel_max: u32) -> bool {
-        let whole = self.kind.largest_deciding_level(pixel_max, 0);
-        self.min_score != 0 && self.level.is_some_and(|level| whole.is_none_or(|max| level > max))
+        self.min_score != 0 && self.never_scores(pixel_max, 0)
+    }
+
+    /// Returns true if no region has a score above 0 with the level and so many fraction bits of the
+    /// mean.
+    fn never_scores(&self, pixel_max: u32, fraction_bits: u32) -> bool {
+        let largest = self.kind.largest_deciding_level(pixel_max, fraction_bits);
+        self.level.is_some_and(|level| largest.is_none_or(|largest| level > largest))
     }
 
     /// Returns the number of score units in one unit of `min_score`. The unit of `min_score` is a

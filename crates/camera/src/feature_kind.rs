@@ -3,6 +3,7 @@
 //! extended for a new kind.
 
 use crate::feature::{MeanDivision, VarianceWidths};
+use crate::ranges::largest_level;
 use crate::width::{edge_magnitude_max, variance_score_max};
 use crate::{DenoiseFilter, FeatureKind, mad_score_max};
 
@@ -180,7 +181,9 @@ impl FeatureKind {
     /// `fraction_bits` is 0.
     pub(crate) fn largest_deciding_level(self, pixel_max: u32, fraction_bits: u32) -> Option<u32> {
         match self {
-            Self::Edge | Self::Corner => self.level_max(pixel_max).map(|max| max - 1),
+            Self::Edge | Self::Corner => {
+                self.level_max(pixel_max).map(|max| largest_level(max, false))
+            }
             Self::Segment => ((pixel_max - 1) / 2).checked_sub(u32::from(fraction_bits == 0)),
             Self::Mad | Self::Variance | Self::Range | Self::Surface | Self::Flow => None,
         }

@@ -28,22 +28,22 @@ pub trait TomlConfig: Serialize + Sized {
 pub fn read<C: TomlConfig, S: AsRef<str>>(text: &str, overrides: &[S]) -> Result<C, ConfigError> {
     let mut written: Table =
         text.parse().map_err(|e: toml::de::Error| ConfigError::Syntax(syntax_message(&e)))?;
-    let mut table = written.clone();
-    apply_overrides(&mut table, overrides)?;
-    if shows_means(&written) && !shows_means(&table) {
-        keys::refuse_unknown(&C::keys().collect::<Vec<_>>(), &written)?;
+    let table = with_overrides(&written, overrides)?;
+    let hides_means = shows_means(&written) && !shows_means(&table);
+    let depth = written_depth(&table)
+        .filter(|&bits| written_depth(&written).is_some_and(|own| own != bits));
+    if !hides_means && depth.is_none() {
+        return from_checked_table(table);
+    }
+    // The text is changed by what the overrides imply, and overridden again.
+    keys::refuse_unknown(&C::keys().collect::<Vec<_>>(), &written)?;
+    if hides_means {
         written.remove("periphery");
-        table = written.clone();
-        apply_overrides(&mut table, overrides)?;
     }
-    if let (Some(own), Some(other)) = (written_depth(&written), written_depth(&table))
-        && own != other
-    {
-        keys::refuse_unknown(&C::keys().collect::<Vec<_>>(), &written)?;
-        table = scaled_table(written, other)?;
-        apply_overrides(&mut table, overrides)?;
+    if let Some(bits) = depth {
+        written = scaled_table(written, bits)?;
     }
-    from_checked_table(table)
+    from_checked_table(with_overrides(&written, overrides)?)
 }
 
 /// Returns the text of a configuration as a TOML file.
@@ -183,8 +183,11 @@ fn shows_means(table: &Table) -> bool {
     shown.and_then(Value::as_str) == Some(IrrelevantRendering::Mean.name())
 }
 
-fn apply_overrides<S: AsRef<str>>(table: &mut Table, overrides: &[S]) -> Result<(), ConfigError> {
-    overrides.iter().try_for_each(|text| apply_override(table, text.as_ref()))
+/// Returns a table with the overrides applied in order.
+fn with_overrides<S: AsRef<str>>(table: &Table, overrides: &[S]) -> Result<Table, ConfigError> {
+    let mut table = table.clone();
+    overrides.iter().try_for_each(|text| apply_override(&mut table, text.as_ref()))?;
+    Ok(table)
 }
 
 fn apply_override(table: &mut Table, text: &str) -> Result<(), ConfigError> {
