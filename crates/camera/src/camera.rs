@@ -3,7 +3,7 @@
 
 use crate::{
     CameraConfig, DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood, Payload,
-    Periphery, ReferencePolicy, SpatialFeature, VoteCombination,
+    Periphery, ReferencePolicy, SpatialFeature, VoteCombination, Zones,
 };
 
 /// A region-based event camera: a configuration that has been checked, with every number that
@@ -16,6 +16,7 @@ pub struct Camera {
     features: Vec<SpatialFeature>,
     temporal: TemporalParameters,
     periphery: Option<Periphery>,
+    zones: Option<Zones>,
 }
 
 /// The thresholds and the reference of the temporal score.
@@ -38,9 +39,9 @@ impl Camera {
         (width, height): (u32, u32),
         features: Vec<SpatialFeature>,
         temporal: TemporalParameters,
-        periphery: Option<Periphery>,
+        (periphery, zones): (Option<Periphery>, Option<Zones>),
     ) -> Self {
-        Self { config, width, height, features, temporal, periphery }
+        Self { config, width, height, features, temporal, periphery, zones }
     }
 
     /// Returns the configuration with every key that applies filled in. `periphery` is empty unless
@@ -121,6 +122,13 @@ impl Camera {
     #[must_use]
     pub fn periphery(&self) -> Option<&Periphery> {
         self.periphery.as_ref()
+    }
+
+    /// Returns the thresholds of classes of regions, or `None` for a camera without zones.
+    /// [`Camera::class_thresholds`] has the thresholds of one class.
+    #[must_use]
+    pub fn zones(&self) -> Option<&Zones> {
+        self.zones.as_ref()
     }
 
     /// Returns the choice of the pixels that an active region forwards: denoised or raw.

@@ -8,7 +8,7 @@
 use crate::depth::{self, DEFAULT_BITS};
 use crate::{
     Decimal, DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood, Payload,
-    ReferencePolicy, VoteCombination,
+    ReferencePolicy, VoteCombination, ZonesConfig,
 };
 use serde::{Deserialize, Serialize};
 
@@ -33,6 +33,10 @@ pub struct CameraConfig {
     /// The summaries that irrelevant regions send, with `render.irrelevant = "mean"`.
     #[serde(skip_serializing_if = "PeripheryConfig::is_empty")]
     pub periphery: PeripheryConfig,
+    /// The thresholds of classes of regions, or `None` for a camera without zones. No organization
+    /// of the hardware computes zones yet, so files cannot have them.
+    #[serde(skip)]
+    pub zones: Option<ZonesConfig>,
 }
 
 impl Default for CameraConfig {
@@ -46,6 +50,7 @@ impl Default for CameraConfig {
             temporal: TemporalConfig::default(),
             render: RenderConfig::default(),
             periphery: PeripheryConfig::default(),
+            zones: None,
         }
     }
 }
@@ -65,6 +70,7 @@ impl CameraConfig {
             self.periphery.level.map(|value| depth::scale_level(value, from, bits));
         config.spatial =
             self.spatial.iter().map(|entry| entry.scaled_to_depth(from, bits)).collect();
+        config.zones = self.zones.as_ref().map(|zones| zones.scaled_to_depth(from, bits));
         config
     }
 }

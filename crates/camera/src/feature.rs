@@ -48,15 +48,15 @@ pub struct VarianceWidths {
 }
 
 impl SpatialFeature {
-    /// Checks entry `index`, whose defaults are filled in, for regions of `n` pixels of `bits`
-    /// bits.
+    /// Checks an entry whose defaults are filled in, for regions of `n` pixels of `bits` bits. The
+    /// keys of the entry begin with `path` in messages.
     pub(crate) fn resolve(
         config: &SpatialConfig,
-        index: usize,
+        path: &str,
         n: u64,
         bits: u32,
     ) -> Result<Self, ConfigError> {
-        let entry = SpatialEntry { config, index, bits };
+        let entry = SpatialEntry { config, path, bits };
         let pixel_max = (1 << bits) - 1;
         let max = u64::from(pixel_max);
         let fraction_bits = entry.fraction_bits(n)?;
@@ -207,17 +207,17 @@ impl VarianceWidths {
     }
 }
 
-/// One entry of `[[spatial]]` with its index, which errors name.
+/// One entry of `[[spatial]]` with the path of its keys, which errors name.
 struct SpatialEntry<'a> {
     config: &'a SpatialConfig,
-    index: usize,
+    path: &'a str,
     /// Bits per pixel.
     bits: u32,
 }
 
 impl SpatialEntry<'_> {
     fn key(&self, name: &str) -> String {
-        format!("spatial[{}].{name}", self.index)
+        format!("{}.{name}", self.path)
     }
 
     /// Checks the level. `largest` is the largest valid one, or `None` if none is valid, and `max` the

@@ -24,10 +24,13 @@ mod periphery;
 mod ranges;
 mod reciprocal;
 mod reference;
+mod region_class;
 mod sent_values;
 pub mod toml_text;
 mod validation;
 mod width;
+mod zones;
+mod zones_config;
 
 pub use action::RegionAction;
 pub use bounds::KeyBound;
@@ -52,4 +55,9 @@ pub use ranges::{
 };
 pub use reciprocal::Reciprocal;
 pub use reference::ReferenceWriteTime;
+pub use region_class::{ClassMapError, RegionClass};
 pub use width::{bits_for, index_bits, mad_score_max};
+pub use zones::{ClassThresholds, Zones};
+pub use zones_config::{
+    KeenConfig, KeenPeripheryConfig, KeenSpatialConfig, KeenTemporalConfig, ZonesConfig,
+};

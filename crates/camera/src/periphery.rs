@@ -31,13 +31,9 @@ impl Periphery {
                 let given = [("blocks", asked.blocks), ("level", asked.level)];
                 match given.into_iter().find_map(|(key, value)| Some((key, value?))) {
                     None => Ok(None),
-                    Some((key, value)) => Err(ConfigError::Combination {
-                        key: format!("periphery.{key}"),
-                        value: value.to_string(),
-                        with: format!("render.irrelevant = \"{}\"", config.render.irrelevant),
-                        remedy: "leave the key out, or show means: render.irrelevant = \"mean\""
-                            .to_owned(),
-                    }),
+                    Some((key, value)) => {
+                        Err(Self::without_means_error(config, &format!("periphery.{key}"), value))
+                    }
                 }
             }
             IrrelevantRendering::Mean => {
@@ -51,6 +47,16 @@ impl Periphery {
                 check_range("periphery.level", level, 0..=largest_level(pixel_max, false), &why)?;
                 Ok(Some(Self::new(side, blocks, level, pixel_max)))
             }
+        }
+    }
+
+    /// Returns the error for a key of summaries in a camera whose irrelevant regions send none.
+    pub(crate) fn without_means_error(config: &CameraConfig, key: &str, value: u32) -> ConfigError {
+        ConfigError::Combination {
+            key: key.to_owned(),
+            value: value.to_string(),
+            with: format!("render.irrelevant = \"{}\"", config.render.irrelevant),
+            remedy: "leave the key out, or show means: render.irrelevant = \"mean\"".to_owned(),
         }
     }
 

@@ -5,7 +5,7 @@ use crate::depth::{self, DEFAULT_BITS};
 use crate::ranges::largest_level;
 use crate::{
     Camera, CameraConfig, ConfigError, Decimal, FeatureKind, Periphery, ReferencePolicy,
-    SpatialConfig, SpatialFeature, TemporalParameters, VoteCombination,
+    SpatialConfig, SpatialFeature, TemporalParameters, VoteCombination, Zones,
 };
 use crate::{MAX_SIDE, PIXEL_BITS, REGION_SIZES, check_range};
 
@@ -37,16 +37,16 @@ impl CameraConfig {
         check_range("region.size", self.region.size, REGION_SIZES, "")?;
         self.check_regions(width, height)?;
         let n = self.region.size * self.region.size;
-        let pixel_max = (1 << self.frame.pixel_bits) - 1;
-        let level = self.temporal_level(pixel_max)?;
-        let region = format!(" for regions of {n} pixels");
-        check_range("temporal.min_count", self.temporal.min_count, 0..=n, &region)?;
+        let level = self.temporal.level_or_default(self.frame.pixel_bits);
+        check_temporal_thresholds(self, "temporal", level, self.temporal.min_count)?;
         self.check_features()?;
         let mut config = self.clone();
         config.temporal.level = Some(level);
         let bits = self.frame.pixel_bits;
         config.spatial = self.spatial.iter().map(|entry| entry.with_defaults(bits)).collect();
-        let resolve = |(index, entry)| SpatialFeature::resolve(entry, index, n.into(), bits);
+        let resolve = |(index, entry)| {
+            SpatialFeature::resolve(entry, &format!("spatial[{index}]"), n.into(), bits)
+        };
         let features = config.spatial.iter().enumerate().map(resolve).collect::<Result<_, _>>()?;
         config.check_means()?;
         config.check_displacement()?;
@@ -59,7 +59,10 @@ impl CameraConfig {
             min_count: self.temporal.min_count,
             reference: self.temporal.reference,
         };
-        Ok(Camera::new(config, (width, height), features, temporal, periphery))
+        let zones = config.zones.as_ref();
+        let zones = zones.map(|zones| Zones::resolve(&config, zones, temporal, periphery));
+        let zones = zones.transpose()?;
+        Ok(Camera::new(config, (width, height), features, temporal, (periphery, zones)))
     }
 
     /// Returns the camera for inputs of `width` x `height` pixels.
@@ -111,18 +114,6 @@ impl CameraConfig {
                 "at most {MAX_REGIONS} regions are allowed; use larger regions or a smaller frame"
             ),
         })
-    }
-
-    /// Returns the level of the temporal score. Some pixel must be able to exceed it, unless the
-    /// minimum count is 0.
-    fn temporal_level(&self, pixel_max: u32) -> Result<u32, ConfigError> {
-        let bits = self.frame.pixel_bits;
-        let level = self.temporal.level_or_default(bits);
-        let largest = largest_level(pixel_max, self.temporal.min_count == 0);
-        let scaled = depth::scale_level(level, DEFAULT_BITS, bits);
-        let hint = depth::depth_hint(&level, &scaled, scaled <= largest, bits);
-        let why = format!(" for pixels of {bits} bits, which differ by at most {pixel_max}{hint}");
-        check_range("temporal.level", level, 0..=largest, &why).map(|()| level)
     }
 
     fn check_features(&self) -> Result<(), ConfigError> {
@@ -202,6 +193,26 @@ impl CameraConfig {
             (ReferencePolicy::LastSent, VoteCombination::All) => true,
         }
     }
+}
+
+/// Checks the thresholds of a temporal score, whose keys are in the table `table`. Some pixel must be
+/// able to exceed the level, unless the minimum count is 0.
+pub(crate) fn check_temporal_thresholds(
+    config: &CameraConfig,
+    table: &str,
+    level: u32,
+    min_count: u32,
+) -> Result<(), ConfigError> {
+    let bits = config.frame.pixel_bits;
+    let pixel_max = (1 << bits) - 1;
+    let largest = largest_level(pixel_max, min_count == 0);
+    let scaled = depth::scale_level(level, DEFAULT_BITS, bits);
+    let hint = depth::depth_hint(&level, &scaled, scaled <= largest, bits);
+    let why = format!(" for pixels of {bits} bits, which differ by at most {pixel_max}{hint}");
+    check_range(&format!("{table}.level"), level, 0..=largest, &why)?;
+    let n = config.region.size * config.region.size;
+    let region = format!(" for regions of {n} pixels");
+    check_range(&format!("{table}.min_count"), min_count, 0..=n, &region)
 }
 
 #[cfg(test)]

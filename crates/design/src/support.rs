@@ -27,6 +27,9 @@ pub(crate) fn check_support(hardware: &HardwareConfig, camera: &Camera) -> Resul
     refuse_unless(organization, "temporal.reference", quoted(reference.name()), |one| {
         supports_reference(one, reference)
     })?;
+    if camera.zones().is_some() {
+        refuse_unless(organization, "zones", "{...}".to_owned(), supports_zones)?;
+    }
     let irrelevant = camera.irrelevant();
     refuse_unless(organization, "render.irrelevant", quoted(irrelevant.name()), |one| {
         supports_rendering(one, irrelevant)
@@ -85,6 +88,13 @@ fn supports_rendering(organization: Organization, irrelevant: IrrelevantRenderin
     }
 }
 
+/// Returns true if the organization can have a class for every region.
+fn supports_zones(organization: Organization) -> bool {
+    match organization {
+        Pipelined | Serial | Raster => false,
+    }
+}
+
 /// Returns true if the organization can have thresholds from this source.
 fn supports_thresholds(organization: Organization, thresholds: ThresholdSource) -> bool {
     use ThresholdSource::{Constant, Runtime};
@@ -113,7 +123,10 @@ fn refuse_unless(
     }
     let others = Organization::ALL.iter().filter(|&&other| supports(other));
     let others: Vec<_> = others.map(|other| format!("\"{other}\"")).collect();
-    let remedy = format!("use another value, or organization = {}", others.join(" or "));
+    let remedy = match others.is_empty() {
+        true => "no organization supports it; leave it out".to_owned(),
+        false => format!("use another value, or organization = {}", others.join(" or ")),
+    };
     Err(organization.combination_error(key, value, &remedy))
 }
 

@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use foveate_camera::ReferencePolicy;
+use foveate_camera::{ReferencePolicy, RegionClass};
 
 use crate::denoised::Denoiser;
 use crate::kernel::flow::DisplacedErrors;
@@ -16,6 +16,7 @@ use crate::periphery::PeripheryPlan;
 use crate::pixels::BorrowedFrame;
 use crate::plan::{CameraPlan, FeaturePasses};
 use crate::working_memory::{ColumnSums, RegionSums, WorkingMemory};
+use crate::zones::{BlockLevels, LaneLevels, UniformLevel};
 use foveate_lanes::{BLOCK_LANES, Block, PixelLane, saturated_threshold};
 
 /// Returns the blocks of a run in row `y` of a padded plane.
@@ -46,14 +47,27 @@ fn add_window_features<T: PixelLane>(
     plan: &CameraPlan<T>,
     windows: WindowRows<'_, T>,
     sides: impl WindowSides<T>,
+    levels: Option<&LaneLevels<T>>,
     columns: &mut ColumnSums<T>,
     run: &Range<usize>,
 ) {
     if let Some(half) = plan.passes.edge {
-        edge::count_edges(windows, sides, half, &mut columns.edge.blocks_mut()[run.clone()]);
+        let hits = &mut columns.edge.blocks_mut()[run.clone()];
+        match levels {
+            None => edge::count_edges(windows, sides, UniformLevel(half), hits),
+            Some(levels) => {
+                edge::count_edges(windows, sides, &levels.edge.blocks()[run.clone()], hits);
+            }
+        }
     }
     if let Some(level) = plan.passes.corner {
-        corner::count_corners(windows, sides, level, &mut columns.corner.blocks_mut()[run.clone()]);
+        let hits = &mut columns.corner.blocks_mut()[run.clone()];
+        match levels {
+            None => corner::count_corners(windows, sides, UniformLevel(level), hits),
+            Some(levels) => {
+                corner::count_corners(windows, sides, &levels.corner.blocks()[run.clone()], hits);
+            }
+        }
     }
     if plan.passes.needs_differences {
         let sums = columns.differences.each_mut();
@@ -74,6 +88,8 @@ pub(crate) struct BandPass<'a, T: PixelLane> {
     pub(crate) denoised: &'a mut [T],
     /// The reference of `last-sent`, otherwise empty.
     pub(crate) reference: &'a [T],
+    /// The classes of the band's regions.
+    pub(crate) classes: &'a [RegionClass],
 }
 
 impl<T: PixelLane> BandPass<'_, T> {
@@ -81,6 +97,7 @@ impl<T: PixelLane> BandPass<'_, T> {
     #[inline(always)]
     pub(crate) fn compute_sums<const PERIPHERY: bool>(&mut self, scratch: &mut WorkingMemory<T>) {
         let runs = std::mem::take(&mut scratch.runs);
+        scratch.levels.set(self.plan, self.classes);
         for run in &runs {
             // The first pass replaces the reference of `previous`.
             self.copy_references(scratch, run);
@@ -171,8 +188,16 @@ impl<T: PixelLane> BandPass<'_, T> {
     #[inline(always)]
     fn first_pass(&mut self, scratch: &mut WorkingMemory<T>, run: &Range<usize>) {
         let plan = self.plan;
-        let WorkingMemory { sorted, column_sums, narrow_window: tail, denoised, columns, .. } =
-            scratch;
+        let WorkingMemory {
+            sorted,
+            column_sums,
+            narrow_window: tail,
+            denoised,
+            columns,
+            levels,
+            ..
+        } = scratch;
+        let levels = levels.in_use();
         let top = self.number * plan.side;
         let mut denoiser = Denoiser {
             plan,
@@ -196,9 +221,12 @@ impl<T: PixelLane> BandPass<'_, T> {
                 for y in top + rows.start..top + rows.end {
                     let windows = denoiser.windows(y);
                     match &plan.seams {
-                        None => add_window_features(plan, windows, SharedSides, columns, run),
+                        None => {
+                            add_window_features(plan, windows, SharedSides, levels, columns, run);
+                        }
                         Some(seams) => {
-                            add_window_features(plan, windows, seams.masks_of(run), columns, run);
+                            let sides = seams.masks_of(run);
+                            add_window_features(plan, windows, sides, levels, columns, run);
                         }
                     }
                 }
@@ -206,7 +234,7 @@ impl<T: PixelLane> BandPass<'_, T> {
                 denoiser.ensure_rows(top + rows.start..top + rows.end);
             }
             for row in rows {
-                self.take_row(denoiser.row(top + row), row, columns, run);
+                self.take_row(denoiser.row(top + row), row, levels, columns, run);
             }
         }
     }
@@ -217,19 +245,17 @@ impl<T: PixelLane> BandPass<'_, T> {
         &mut self,
         current: &[Block<T>],
         row: usize,
+        levels: Option<&LaneLevels<T>>,
         columns: &mut ColumnSums<T>,
         run: &Range<usize>,
     ) {
-        let (plan, stride) = (self.plan, self.plan.stride());
+        let plan = self.plan;
         let changed = &mut columns.changed.blocks_mut()[run.clone()];
-        let stored = row_blocks_mut(self.denoised, stride, row, run);
-        match plan.reference {
-            ReferencePolicy::Previous => {
-                temporal::count_and_replace(current, stored, plan.level, changed);
-            }
-            ReferencePolicy::LastSent => {
-                let reference = row_blocks(self.reference, stride, row, run);
-                temporal::count_and_store(current, reference, plan.level, changed, stored);
+        match levels {
+            None => self.compare_row(current, row, UniformLevel(plan.level), changed, run),
+            Some(levels) => {
+                let levels = &levels.temporal.blocks()[run.clone()];
+                self.compare_row(current, row, levels, changed, run);
             }
         }
         if plan.passes.needs_sums {
@@ -244,6 +270,29 @@ impl<T: PixelLane> BandPass<'_, T> {
                 &mut columns.smallest.blocks_mut()[run.clone()],
                 &mut columns.largest.blocks_mut()[run.clone()],
             );
+        }
+    }
+
+    /// Counts the changed pixels of a row, and stores the row.
+    #[inline(always)]
+    fn compare_row(
+        &mut self,
+        current: &[Block<T>],
+        row: usize,
+        levels: impl BlockLevels<T>,
+        changed: &mut [Block<T>],
+        run: &Range<usize>,
+    ) {
+        let stride = self.plan.stride();
+        let stored = row_blocks_mut(self.denoised, stride, row, run);
+        match self.plan.reference {
+            ReferencePolicy::Previous => {
+                temporal::count_and_replace(current, stored, levels, changed);
+            }
+            ReferencePolicy::LastSent => {
+                let reference = row_blocks(self.reference, stride, row, run);
+                temporal::count_and_store(current, reference, levels, changed, stored);
+            }
         }
     }
 
@@ -320,8 +369,15 @@ impl<T: PixelLane> BandPass<'_, T> {
         };
         let [upper, lower] = &mut columns.segment_bounds;
         let sums = &region_sums.sum;
-        sums::spread_over_columns(sums, side, |sum| lane(segment.upper_bound(sum, n)), upper);
-        sums::spread_over_columns(sums, side, |sum| lane(segment.lower_bound(sum, n)), lower);
+        let keen = self.plan.zones.as_ref().and_then(|zones| zones.keen_passes.segment);
+        let of_region = |region: usize| match (keen, self.classes.get(region)) {
+            (Some(keen), Some(RegionClass::Keen)) => keen,
+            _ => segment,
+        };
+        let bound = |region, sum| lane(of_region(region).upper_bound(sum, n));
+        sums::spread_over_columns(sums, side, bound, upper);
+        let bound = |region, sum| lane(of_region(region).lower_bound(sum, n));
+        sums::spread_over_columns(sums, side, bound, lower);
         for run in runs {
             let bounds = columns.segment_bounds.each_ref();
             let bounds = bounds.map(|bound| &bound.blocks()[run.clone()]);
@@ -344,7 +400,7 @@ impl<T: PixelLane> BandPass<'_, T> {
     #[inline(always)]
     fn spread_means(&self, scratch: &mut WorkingMemory<T>, fraction_bits: u32) {
         let n = u64::from(self.plan.region_pixels());
-        let mean = |sum| {
+        let mean = |_, sum| {
             let mean = mad::region_mean(sum, n, fraction_bits) >> fraction_bits;
             saturated_threshold(u32::try_from(mean).expect("a mean is within the range of pixels"))
         };

@@ -2,7 +2,8 @@
 //! The decision: from sums to scores, votes, SRS, TRS and the action of every region of a band.
 
 use foveate_camera::{
-    Displacement, FeatureKind, IrrelevantRendering, ReferencePolicy, RegionAction, VoteCombination,
+    Displacement, FeatureKind, IrrelevantRendering, ReferencePolicy, RegionAction, RegionClass,
+    VoteCombination,
 };
 
 use crate::kernel::flow::{self, DisplacedErrors};
@@ -10,6 +11,7 @@ use crate::kernel::mad;
 use crate::outcome::RegionResults;
 use crate::plan::CameraPlan;
 use crate::working_memory::RegionSums;
+use crate::zones::ZonePlan;
 use foveate_lanes::PixelLane;
 
 impl<T: PixelLane> CameraPlan<T> {
@@ -21,6 +23,7 @@ impl<T: PixelLane> CameraPlan<T> {
         (sums, flow_errors): (&RegionSums, &[DisplacedErrors]),
         affected: &[bool],
         valid: &[bool],
+        classes: &[RegionClass],
         results: &mut RegionResults<'_>,
     ) {
         self.update_temporal_counts(sums, affected, valid, results);
@@ -68,13 +71,45 @@ impl<T: PixelLane> CameraPlan<T> {
             }
         }
         self.update_srs(results);
-        let bits = results.srs.iter().zip(&mut *results.trs).zip(&*results.temporal_count);
-        for ((((&srs, trs), &count), active), action) in
+        for (trs, &count) in results.trs.iter_mut().zip(&*results.temporal_count) {
+            *trs = count >= self.min_count;
+        }
+        if let Some(zones) = &self.zones {
+            self.apply_classes(zones, classes, results);
+        }
+        let bits = results.srs.iter().zip(&*results.trs);
+        for (((&srs, &trs), active), action) in
             bits.zip(&mut *results.active).zip(&mut *results.actions)
         {
-            *trs = count >= self.min_count;
-            *active = srs & *trs;
-            *action = self.choose_action(srs, *trs);
+            *active = srs & trs;
+            *action = self.choose_action(srs, trs);
+        }
+    }
+
+    /// Replaces SRS and TRS of the regions whose class is not `normal`.
+    #[inline(always)]
+    fn apply_classes(
+        &self,
+        zones: &ZonePlan<T>,
+        classes: &[RegionClass],
+        results: &mut RegionResults<'_>,
+    ) {
+        for (at, &class) in classes.iter().enumerate() {
+            match class {
+                RegionClass::Normal => {}
+                RegionClass::Off => results.srs[at] = false,
+                RegionClass::Always => results.srs[at] = true,
+                RegionClass::Keen => {
+                    let features = zones.keen_features.iter().zip(&results.scores);
+                    let mut votes =
+                        features.map(|(feature, scores)| scores[at] >= feature.min_score);
+                    results.srs[at] = match self.combine {
+                        VoteCombination::Any => votes.any(|vote| vote),
+                        VoteCombination::All => votes.all(|vote| vote),
+                    };
+                    results.trs[at] = results.temporal_count[at] >= zones.keen_min_count;
+                }
+            }
         }
     }
 

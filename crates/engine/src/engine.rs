@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The public interface of the engine.
 
-use foveate_camera::Camera;
+use foveate_camera::{Camera, RegionClass};
 use foveate_frame::Frame;
 
 use crate::lane_engine::{KeptBuffers, LaneEngine};
@@ -117,7 +117,22 @@ impl Engine {
         self.workers.level
     }
 
-    /// Returns the engine to its reset state, with a black screen and without references.
+    /// Sets the class of every region, numbered row by row, from the next frame on. The regions of a
+    /// new engine are [`RegionClass::Normal`].
+    ///
+    /// # Errors
+    /// Returns the errors of [`Camera::check_classes`]. The classes are then unchanged.
+    pub fn set_classes(&mut self, classes: &[RegionClass]) -> Result<(), EngineError> {
+        self.camera.check_classes(classes)?;
+        match &mut self.lanes {
+            LaneCore::Bytes(core) => core.set_classes(classes),
+            LaneCore::Words(core) => core.set_classes(classes),
+        }
+        Ok(())
+    }
+
+    /// Returns the engine to its reset state, with a black screen and without references. The classes
+    /// of the regions stay.
     pub fn reset(&mut self) {
         match &mut self.lanes {
             LaneCore::Bytes(core) => core.reset(),

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The errors of the engine.
 
+use foveate_camera::ClassMapError;
 use thiserror::Error;
 
-/// The error that is returned if pixels are not a frame of the camera, or threads cannot be
-/// started.
+/// The error that is returned if pixels are not a frame of the camera, a map does not fit it, or
+/// threads cannot be started.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum EngineError {
@@ -66,6 +67,9 @@ pub enum EngineError {
         /// The error of that frame.
         error: Box<EngineError>,
     },
+    /// A map that does not fit the camera.
+    #[error(transparent)]
+    ClassMap(#[from] ClassMapError),
     /// More threads are asked for than an engine takes.
     #[error("threads = {threads}: expected 1 to {most}, or 0, which takes one per processor")]
     TooManyThreads {

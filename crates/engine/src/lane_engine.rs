@@ -5,7 +5,7 @@
 use std::iter;
 use std::ops::Range;
 
-use foveate_camera::ReferencePolicy;
+use foveate_camera::{ReferencePolicy, RegionClass};
 
 use crate::change;
 use crate::change_search::{ChangeSearch, KnownChanges};
@@ -37,8 +37,10 @@ pub(crate) struct LaneEngine<T: PixelLane> {
     summary_shown: Vec<bool>,
     means: Vec<T>,
     settled: Vec<bool>,
-    /// The regions that were forgotten since the last frame.
-    forgotten: Vec<bool>,
+    /// The regions that were forgotten, or got another class, since the last frame.
+    must_compute: Vec<bool>,
+    /// The classes of the regions; empty if the camera has no zones.
+    classes: Vec<RegionClass>,
     /// The last frame without padding. It is kept up to date while the policy asks for it.
     last_frame: Vec<T>,
     /// One flag per region and frame, in the order band, frame, column; true if pixels of the
@@ -83,7 +85,11 @@ impl<T: PixelLane> LaneEngine<T> {
             summary_shown: vec![false; if plan.periphery.is_some() { plan.regions() } else { 0 }],
             means: vec![T::default(); plan.rows * plan.band_means()],
             settled: vec![false; plan.rows],
-            forgotten: vec![false; plan.regions()],
+            must_compute: vec![false; plan.regions()],
+            classes: match plan.zones {
+                Some(_) => vec![RegionClass::default(); plan.regions()],
+                None => Vec::new(),
+            },
             last_frame: vec![T::default(); if skip { plan.width * plan.height } else { 0 }],
             changed_regions: Vec::new(),
             policy: SearchPolicy::new(skip),
@@ -99,7 +105,7 @@ impl<T: PixelLane> LaneEngine<T> {
         self.black_regions.fill(true);
         self.summary_shown.fill(false);
         self.settled.fill(false);
-        self.forgotten.fill(false);
+        self.must_compute.fill(false);
         self.screen.fill(T::default());
         if let Some(copy) = &mut self.state_copy {
             *copy = StateCopy::default();
@@ -120,10 +126,20 @@ impl<T: PixelLane> LaneEngine<T> {
     /// Forgets what a region has sent. The next frame computes it even if its pixels are the same.
     pub(crate) fn forget_region(&mut self, region: u32) {
         let region = index(region);
-        self.forgotten[region] = true;
+        self.must_compute[region] = true;
         self.reference_valid[region] &= !self.plan.reference.is_lost_with_its_region();
         if self.plan.periphery.is_some() {
             self.summary_shown[region] = false;
+        }
+    }
+
+    /// Sets the class of every region of a camera with zones. The next frame computes the regions
+    /// whose class is another one than before, even if their pixels are the same.
+    pub(crate) fn set_classes(&mut self, classes: &[RegionClass]) {
+        let regions = self.classes.iter_mut().zip(classes).zip(&mut self.must_compute);
+        for ((own, &class), must_compute) in regions {
+            *must_compute |= *own != class;
+            *own = class;
         }
     }
 
@@ -261,7 +277,7 @@ impl<T: PixelLane> LaneEngine<T> {
         let (mut valid, mut black) = (&mut self.reference_valid[..], &mut self.black_regions[..]);
         let (mut shown, mut means) = (&mut self.summary_shown[..], &mut self.means[..]);
         let (mut settled, mut screen) = (&mut self.settled[..], &mut self.screen[..]);
-        let mut forgotten = &mut self.forgotten[..];
+        let (mut must_compute, classes) = (&mut self.must_compute[..], &self.classes[..]);
         let mut results = outcome.results();
         let KeptBuffers { outcomes, screens } = kept_buffers;
         let screens = screens.iter_mut();
@@ -290,7 +306,11 @@ impl<T: PixelLane> LaneEngine<T> {
                 summary_shown: split_off(&mut shown, regions),
                 means: split_off(&mut means, bands.len() * plan.band_means()),
                 is_settled: split_off(&mut settled, bands.len()),
-                forgotten: split_off(&mut forgotten, regions),
+                must_compute: split_off(&mut must_compute, regions),
+                classes: {
+                    let regions = bands.start * plan.columns..bands.end * plan.columns;
+                    classes.get(regions).unwrap_or_default()
+                },
                 bands,
                 results: results.split_off(regions),
                 kept: kept.collect(),

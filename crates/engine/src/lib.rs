@@ -37,6 +37,7 @@ mod state_copy;
 mod strip;
 mod workers;
 mod working_memory;
+mod zones;
 
 pub use engine::{Engine, EngineOptions};
 pub use error::EngineError;

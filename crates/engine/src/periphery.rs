@@ -27,9 +27,9 @@ pub(crate) struct PeripheryPlan<T> {
 pub(crate) struct CurrentMeans<'a, T> {
     /// The means, row by row of blocks.
     pub(crate) means: &'a [T],
-    /// An output with one value per column of blocks. The value is not 0 if a mean of the column
-    /// differs by more than the level from the mean that was sent last.
-    pub(crate) exceeds_level: &'a mut [T],
+    /// An output with one value per column of blocks: the largest difference of a mean of the column
+    /// from the mean that was sent last.
+    pub(crate) differences: &'a mut [T],
     /// The regions whose pixels may have changed. The means of the other regions are not valid.
     pub(crate) affected: &'a [bool],
 }
@@ -88,26 +88,27 @@ impl<T: PixelLane> PeripheryPlan<T> {
     /// Decides which irrelevant regions of a band send their means. A region that is not affected
     /// sends nothing, because its means are those of the last frame, from which the screen differs
     /// by no more than the level.
+    /// `level` returns the level of a region.
     #[inline(always)]
     pub(crate) fn send_summaries(
         &self,
+        level: impl Fn(usize) -> T,
         current: CurrentMeans<'_, T>,
         summaries: &mut SentSummaries<'_, T>,
         results: &mut RegionResults<'_>,
     ) {
-        let CurrentMeans { means, exceeds_level: differs, affected } = current;
+        let CurrentMeans { means, differences: differs, affected } = current;
         differs.fill(T::default());
         let rows = means.chunks_exact(differs.len());
         for (current, sent) in rows.zip(summaries.means.chunks_exact(differs.len())) {
             for ((current, sent), differs) in current.iter().zip(sent).zip(differs.iter_mut()) {
-                *differs =
-                    (*differs).max(current.absolute_difference(*sent).saturating_minus(self.level));
+                *differs = (*differs).max(current.absolute_difference(*sent));
             }
         }
         let regions = differs.chunks_exact(self.blocks).zip(affected).zip(&mut *summaries.is_shown);
         for (column, ((differs, &affected), shown)) in regions.enumerate() {
             *shown &= !results.active[column];
-            let is_near = *shown && differs.iter().all(|&differs| differs == T::default());
+            let is_near = *shown && differs.iter().all(|&differs| differs <= level(column));
             if results.srs[column] || !affected || is_near {
                 continue;
             }

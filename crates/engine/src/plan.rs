@@ -10,6 +10,7 @@ use foveate_camera::{
 
 use crate::kernel::segment::SegmentPlan;
 use crate::periphery::PeripheryPlan;
+use crate::zones::ZonePlan;
 use foveate_lanes::AlignedBuffer;
 use foveate_lanes::{BLOCK_LANES, PixelLane, saturated_threshold};
 
@@ -47,6 +48,7 @@ pub(crate) struct CameraPlan<T: PixelLane> {
     /// True if the payload is raw pixels although denoised pixels are scored.
     pub(crate) keeps_raw: bool,
     pub(crate) periphery: Option<PeripheryPlan<T>>,
+    pub(crate) zones: Option<ZonePlan<T>>,
 }
 
 /// The passes over the pixels of a band that the features need.
@@ -100,13 +102,9 @@ impl<T: PixelLane> CameraPlan<T> {
             filter: camera.filter(),
             seams: (camera.neighborhood() == Neighborhood::Isolated)
                 .then(|| SeamMasks::new(side, blocks)),
-            passes: FeaturePasses::from_camera(camera),
+            passes: FeaturePasses::from_features(camera.features()),
             flow_radius: camera.displacement_feature().and_then(SpatialFeature::radius),
-            features: camera
-                .features()
-                .iter()
-                .map(|feature| FeaturePlan { kind: feature.kind(), min_score: feature.min_score() })
-                .collect(),
+            features: feature_plans(camera.features()),
             combine: camera.combine(),
             level: saturated_threshold(camera.temporal().level),
             min_count: camera.temporal().min_count,
@@ -115,6 +113,7 @@ impl<T: PixelLane> CameraPlan<T> {
             payload: camera.payload(),
             keeps_raw: camera.has_separate_raw_pixels(),
             periphery: camera.periphery().map(periphery_plan),
+            zones: ZonePlan::from_camera(camera),
         }
     }
 
@@ -221,6 +220,15 @@ impl<T: PixelLane> CameraPlan<T> {
     }
 }
 
+/// Returns the features with their minimum scores.
+pub(crate) fn feature_plans(features: &[SpatialFeature]) -> Vec<FeaturePlan> {
+    let plan = |feature: &SpatialFeature| FeaturePlan {
+        kind: feature.kind(),
+        min_score: feature.min_score(),
+    };
+    features.iter().map(plan).collect()
+}
+
 fn periphery_plan<T: PixelLane>(periphery: &Periphery) -> PeripheryPlan<T> {
     PeripheryPlan {
         blocks: index(periphery.blocks),
@@ -232,11 +240,12 @@ fn periphery_plan<T: PixelLane>(periphery: &Periphery) -> PeripheryPlan<T> {
 }
 
 impl<T: PixelLane> FeaturePasses<T> {
-    fn from_camera(camera: &Camera) -> Self {
+    /// Returns the passes that the features need, with the levels of the features.
+    pub(crate) fn from_features(features: &[SpatialFeature]) -> Self {
         let mut passes = Self {
             edge: None,
             corner: None,
-            has_windows: camera.has_feature_window(),
+            has_windows: features.iter().any(|feature| feature.kind().has_window()),
             needs_sums: false,
             needs_squares: false,
             needs_extremes: false,
@@ -244,7 +253,7 @@ impl<T: PixelLane> FeaturePasses<T> {
             mad: None,
             segment: None,
         };
-        for feature in camera.features() {
+        for feature in features {
             let level = || feature.level().expect("a feature that counts pixels has a level");
             let fraction_bits =
                 || feature.mean().expect("mad and segment have a mean").fraction_bits;

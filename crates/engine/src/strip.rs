@@ -7,7 +7,7 @@
 
 use std::ops::{AddAssign, Range};
 
-use foveate_camera::Displacement;
+use foveate_camera::{Displacement, RegionClass};
 
 use crate::band::BandPass;
 use crate::change;
@@ -64,9 +64,11 @@ pub(crate) struct BandStrip<'a, T: PixelLane> {
     /// One flag per band: the same raw pixels once more would change no result, reference or pixel
     /// of the screen.
     pub(crate) is_settled: &'a mut [bool],
-    /// The regions that were forgotten before the first frame. They are computed in that frame even
-    /// if their pixels have not changed.
-    pub(crate) forgotten: &'a mut [bool],
+    /// The regions that were forgotten, or got another class, before the first frame. They are
+    /// computed in that frame even if their pixels have not changed.
+    pub(crate) must_compute: &'a mut [bool],
+    /// The classes of the regions; empty if the camera has no zones.
+    pub(crate) classes: &'a [RegionClass],
     /// The results of the last frame.
     pub(crate) results: RegionResults<'a>,
     /// The kept results of each frame, or empty.
@@ -121,6 +123,7 @@ impl<T: PixelLane> BandStrip<'_, T> {
         let rows = row * plan.side * plan.stride()..(row + 1) * plan.side * plan.stride();
         let regions = row * plan.columns..(row + 1) * plan.columns;
         let lines = row * plan.side * plan.width;
+        let classes = self.classes.get(regions.clone()).unwrap_or_default();
         self.select_runs(frame, number, regions.clone());
         let is_still = self.scratch.runs.is_empty();
         if is_still && self.is_settled[row] {
@@ -136,26 +139,33 @@ impl<T: PixelLane> BandStrip<'_, T> {
                 number,
                 denoised: &mut self.denoised[rows.clone()],
                 reference: &self.reference[reference.clone()],
+                classes,
             };
             band.compute_sums::<PERIPHERY>(self.scratch);
         }
         let mut results = self.results.range(regions.clone());
         let valid = &mut self.reference_valid[regions.clone()];
         let sums = (&self.scratch.region_sums, &self.scratch.flow_errors[..]);
-        plan.decide_band(sums, &self.scratch.affected, valid, &mut results);
+        plan.decide_band(sums, &self.scratch.affected, valid, classes, &mut results);
         let means = row * plan.band_means()..(row + 1) * plan.band_means();
         let means = &mut self.means[means];
         if PERIPHERY && let Some(periphery) = &plan.periphery {
             let shown = &mut self.summary_shown[regions.clone()];
-            let WorkingMemory { means: current_means, exceeds_level: differs, affected, .. } =
+            let WorkingMemory { means: current_means, mean_differences, affected, .. } =
                 &mut *self.scratch;
             let current_means =
-                CurrentMeans { means: current_means, exceeds_level: differs, affected };
-            periphery.send_summaries(
-                current_means,
-                &mut SentSummaries { is_shown: shown, means },
-                &mut results,
-            );
+                CurrentMeans { means: current_means, differences: mean_differences, affected };
+            let mut sent = SentSummaries { is_shown: shown, means };
+            match &plan.zones {
+                None => {
+                    let level = |_| periphery.level;
+                    periphery.send_summaries(level, current_means, &mut sent, &mut results);
+                }
+                Some(zones) => {
+                    let level = |region| zones.summary_level(classes[region], periphery.level);
+                    periphery.send_summaries(level, current_means, &mut sent, &mut results);
+                }
+            }
         }
         let mut renderer = BandRenderer {
             screen: &mut self.screen[lines..],
@@ -174,11 +184,15 @@ impl<T: PixelLane> BandStrip<'_, T> {
     fn select_runs(&mut self, frame: usize, number: usize, regions: Range<usize>) {
         let (plan, scratch) = (self.plan, &mut *self.scratch);
         let displacements = cut_to_range(self.results.displacements, &regions);
-        let forgotten = &mut self.forgotten[regions];
+        let must_compute = &mut self.must_compute[regions];
         match self.changes.changed_around(plan, frame, number) {
             Some(changed) => {
                 change::mark_affected(plan, changed, &mut scratch.affected);
-                scratch.affected.iter_mut().zip(&*forgotten).for_each(|(own, &lost)| *own |= lost);
+                scratch
+                    .affected
+                    .iter_mut()
+                    .zip(&*must_compute)
+                    .for_each(|(own, &must)| *own |= must);
                 // The vote of `flow` ends if the region stands still.
                 let moved = displacements.iter().map(|&last| last != Displacement::default());
                 scratch.affected.iter_mut().zip(moved).for_each(|(own, moved)| *own |= moved);
@@ -194,7 +208,7 @@ impl<T: PixelLane> BandStrip<'_, T> {
                 scratch.runs.push(0..plan.blocks);
             }
         }
-        forgotten.fill(false);
+        must_compute.fill(false);
     }
 
     /// Copies a band of the screen to the kept screen while it is in the cache.

@@ -7,6 +7,7 @@ use crate::kernel::ExtendedRow;
 use crate::kernel::flow::DisplacedErrors;
 use crate::kernel::surface::DISPLACEMENTS;
 use crate::plan::CameraPlan;
+use crate::zones::LaneLevels;
 use foveate_lanes::AlignedBuffer;
 use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
 
@@ -127,6 +128,7 @@ pub(crate) struct WorkingMemory<T: PixelLane> {
     pub(crate) denoised: Vec<DenoisedRow<T>>,
     pub(crate) columns: ColumnSums<T>,
     pub(crate) region_sums: RegionSums,
+    pub(crate) levels: LaneLevels<T>,
     /// The rows of the band's references, for `flow`.
     pub(crate) references: Vec<BlockRow<T>>,
     /// The errors of each displacement of `flow`, in the order of preference.
@@ -138,7 +140,7 @@ pub(crate) struct WorkingMemory<T: PixelLane> {
     /// The means of the band's blocks, row by row of blocks.
     pub(crate) means: Vec<T>,
     /// One value per column of blocks; see [`CurrentMeans`](crate::periphery::CurrentMeans).
-    pub(crate) exceeds_level: Vec<T>,
+    pub(crate) mean_differences: Vec<T>,
     /// The runs of blocks of the band that have to be computed.
     pub(crate) runs: Vec<Range<usize>>,
     /// The regions of the band whose results may have changed.
@@ -183,6 +185,7 @@ impl<T: PixelLane> WorkingMemory<T> {
                 count_above: regions(),
                 segment: [regions(), regions()],
             },
+            levels: LaneLevels::new(plan),
             references: match plan.flow_radius {
                 Some(_) => (0..plan.side).map(|_| row()).collect(),
                 None => Vec::new(),
@@ -193,7 +196,7 @@ impl<T: PixelLane> WorkingMemory<T> {
             flow_columns: AlignedBuffer::new(plan.flow_radius.map_or(0, |_| width)),
             raw: row(),
             means: vec![T::default(); plan.band_means()],
-            exceeds_level: vec![T::default(); plan.means_in_row()],
+            mean_differences: vec![T::default(); plan.means_in_row()],
             runs: Vec::with_capacity(plan.blocks),
             affected: vec![true; plan.columns],
         }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The ideal camera, which takes one whole frame at a time.
 
-use foveate_camera::RegionAction;
-use foveate_camera::{Camera, DenoiseFilter, Payload};
+use foveate_camera::{Camera, DenoiseFilter, Payload, RegionAction, RegionClass};
 use foveate_frame::ByteFrame;
 
 use crate::binomial::filter_binomial;
@@ -12,8 +11,9 @@ use crate::median::{SortedColumns, filter_median};
 use crate::memory::ReferenceMemory;
 use crate::periphery::PeripheryState;
 use crate::plane::PaddedPlane;
-use crate::rules::DecisionRules;
+use crate::rules::{ClassRules, DecisionRules};
 use crate::switching::filter_switching;
+use crate::view::FrameView;
 use crate::{IdealError, IdealOutcome};
 
 /// A camera that computes the contract in real numbers.
@@ -32,11 +32,21 @@ pub struct IdealCamera {
     denoised: PaddedPlane,
     columns: SortedColumns,
     scratch: ScoreBuffers,
+    classes: Vec<RegionClass>,
+    /// The scores of all regions with the keen thresholds; empty in a camera without zones.
+    keen_scores: ClassScores,
     outcome: IdealOutcome,
 }
 
+/// The scores of a frame by feature and region, and the numbers of changed pixels by region.
+#[derive(Clone, Debug, Default)]
+struct ClassScores {
+    scores: Vec<Vec<f64>>,
+    changed: Vec<f64>,
+}
+
 impl IdealCamera {
-    /// Creates a camera before its first frame.
+    /// Creates a camera before its first frame, whose regions are all [`RegionClass::Normal`].
     #[must_use]
     pub fn new(camera: &Camera) -> Self {
         let grid = RegionGrid::from_camera(camera);
@@ -48,7 +58,14 @@ impl IdealCamera {
             denoised: PaddedPlane::black(&grid),
             columns: SortedColumns::default(),
             scratch: ScoreBuffers::default(),
-            outcome: IdealOutcome::new(rules.features.len(), &grid),
+            classes: vec![RegionClass::default(); grid.regions()],
+            keen_scores: rules.keen.as_ref().map_or_else(ClassScores::default, |keen| {
+                ClassScores {
+                    scores: vec![vec![0.0; grid.regions()]; keen.features.len()],
+                    changed: vec![0.0; grid.regions()],
+                }
+            }),
+            outcome: IdealOutcome::new(rules.own.features.len(), &grid),
             rules,
             grid,
             camera: camera.clone(),
@@ -68,7 +85,17 @@ impl IdealCamera {
         &self.outcome
     }
 
-    /// Forgets every frame and makes the screen black.
+    /// Sets the class of every region, numbered row by row, from the next frame on.
+    ///
+    /// # Errors
+    /// Returns the errors of [`Camera::check_classes`]; nothing has changed then.
+    pub fn set_classes(&mut self, classes: &[RegionClass]) -> Result<(), IdealError> {
+        self.camera.check_classes(classes)?;
+        self.classes.copy_from_slice(classes);
+        Ok(())
+    }
+
+    /// Forgets every frame and makes the screen black. The classes of the regions stay.
     pub fn reset(&mut self) {
         self.memory.forget();
         if let Some(periphery) = &mut self.periphery {
@@ -115,26 +142,37 @@ impl IdealCamera {
     }
 
     fn score(&mut self) {
-        let Self { grid, rules, memory, denoised, scratch, outcome, .. } = self;
+        let Self { grid, rules, memory, denoised, scratch, classes, keen_scores, outcome, .. } =
+            self;
         let view = memory.frame_view(denoised, grid);
-        for (feature, scores) in rules.features.iter().zip(&mut outcome.scores) {
-            score(feature, &view, scratch, scores);
+        score_frame(&rules.own, &view, scratch, (&mut outcome.scores, &mut outcome.changed));
+        let Some(keen) = &rules.keen else { return };
+        let ClassScores { scores, changed } = keen_scores;
+        score_frame(keen, &view, scratch, (scores, changed));
+        let keen_regions =
+            classes.iter().enumerate().filter(|(_, class)| **class == RegionClass::Keen);
+        for (region, _) in keen_regions {
+            outcome.changed[region] = changed[region];
+            for (own, keen) in outcome.scores.iter_mut().zip(&*scores) {
+                own[region] = keen[region];
+            }
         }
-        count_changed_pixels(rules.level, &view, scratch, &mut outcome.changed);
     }
 
     fn decide(&mut self, region: usize) {
-        let Self { camera, grid, raw, denoised, rules, periphery, outcome, .. } = self;
-        let srs = rules.srs(&outcome.scores, region);
-        let trs = rules.trs(outcome.changed[region]);
+        let Self { camera, grid, raw, denoised, rules, classes, periphery, outcome, .. } = self;
+        let class = classes[region];
+        let srs = rules.srs(class, &outcome.scores, region);
+        let trs = rules.trs(class, outcome.changed[region]);
         outcome.srs[region] = srs;
         outcome.trs[region] = trs;
         outcome.active[region] = srs && trs;
         let means = periphery.as_ref().map_or(Vec::new(), |periphery| {
             periphery.means(payload_plane(camera, raw, denoised), grid, region)
         });
+        let level = rules.summary_level(class);
         let is_due =
-            || periphery.as_ref().is_some_and(|periphery| periphery.is_due(region, &means));
+            || periphery.as_ref().is_some_and(|periphery| periphery.is_due(region, &means, level));
         let action = rules.action(srs, trs, is_due);
         outcome.actions[region] = action;
         if let Some(periphery) = periphery {
@@ -174,4 +212,18 @@ fn payload_plane<'a>(
         Payload::Denoised => denoised,
         Payload::Raw => raw,
     }
+}
+
+/// Computes the scores and the numbers of changed pixels of all regions with the thresholds of a
+/// class.
+fn score_frame(
+    rules: &ClassRules,
+    view: &FrameView,
+    scratch: &mut ScoreBuffers,
+    (scores, changed): (&mut [Vec<f64>], &mut [f64]),
+) {
+    for (feature, scores) in rules.features.iter().zip(scores) {
+        score(feature, view, scratch, scores);
+    }
+    count_changed_pixels(rules.level, view, scratch, changed);
 }

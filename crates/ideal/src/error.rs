@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The errors of the ideal camera.
 
+use foveate_camera::ClassMapError;
 use thiserror::Error;
 
-/// An error of the ideal camera: a frame that does not fit it.
+/// An error of the ideal camera: a frame or a map that does not fit it.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum IdealError {
@@ -15,4 +16,7 @@ pub enum IdealError {
         /// The size and depth of the camera.
         expected: String,
     },
+    /// A map that does not fit the camera.
+    #[error(transparent)]
+    ClassMap(#[from] ClassMapError),
 }

@@ -15,7 +15,6 @@ use crate::plane::PaddedPlane;
 pub(crate) struct PeripheryState {
     blocks: usize,
     side: usize,
-    level: f64,
     /// The means of the blocks of every region, row by row; `None` while the screen shows no
     /// summary of the region.
     shown_means: Vec<Option<Vec<f64>>>,
@@ -27,7 +26,6 @@ impl PeripheryState {
         camera.periphery().map(|periphery| Self {
             blocks: to_index(periphery.blocks),
             side: to_index(periphery.block_side),
-            level: periphery.level.into(),
             shown_means: vec![None; grid.regions()],
         })
     }
@@ -57,10 +55,11 @@ impl PeripheryState {
         (sum / count + 0.5_f64).floor()
     }
 
-    /// Returns whether these means differ so much from the shown ones that they must be sent.
-    pub(crate) fn is_due(&self, region: usize, means: &[f64]) -> bool {
+    /// Returns whether these means differ by more than `level` from the shown ones, so that they
+    /// must be sent.
+    pub(crate) fn is_due(&self, region: usize, means: &[f64], level: f64) -> bool {
         self.shown_means[region].as_ref().is_none_or(|shown| {
-            shown.iter().zip(means).any(|(shown, mean)| (shown - mean).abs() > self.level)
+            shown.iter().zip(means).any(|(shown, mean)| (shown - mean).abs() > level)
         })
     }
 

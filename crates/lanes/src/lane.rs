@@ -32,6 +32,7 @@ pub trait PixelLane:
     /// The sum of three differences of pixels, with sign.
     type Signed: Copy
         + Debug
+        + Default
         + Ord
         + Send
         + Sync

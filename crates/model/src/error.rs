@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The errors of the models.
 
+use foveate_camera::ClassMapError;
 use thiserror::Error;
 
-/// An error of a frame that does not fit the design.
+/// An error of a frame or a map that does not fit the design.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ModelError {
@@ -15,4 +16,7 @@ pub enum ModelError {
         /// Size and depth of the design.
         expected: String,
     },
+    /// A map that does not fit the camera.
+    #[error(transparent)]
+    ClassMap(#[from] ClassMapError),
 }

@@ -2,7 +2,9 @@
 //! The functional model: an RCM and its renderer, one whole frame at a time. It is the reference
 //! for all other models.
 
-use foveate_camera::{Camera, Displacement, Payload, SpatialFeature};
+use foveate_camera::{
+    Camera, ClassThresholds, Displacement, Payload, RegionAction, RegionClass, SpatialFeature,
+};
 
 use crate::ModelError;
 use crate::conversions::index;
@@ -15,7 +17,6 @@ use crate::region::{RegionArea, black_frame, black_padded_frame, check_frame_kin
 use crate::region_view::FrameRegion;
 use crate::screen::Screen;
 use crate::temporal::{RegionReferences, changed_pixels};
-use foveate_camera::RegionAction;
 use foveate_frame::Frame;
 
 /// The results of one frame. Regions are numbered row by row.
@@ -89,24 +90,27 @@ pub struct RegionMemory {
     pub summary: Option<Vec<u16>>,
 }
 
-/// An RCM with its renderer. Its state between frames is references, summaries and the screen.
+/// An RCM with its renderer. Its state between frames is references, summaries and the screen, and
+/// the map of the classes of its regions.
 #[derive(Clone, Debug)]
 pub struct FunctionalCamera {
     camera: Camera,
     references: RegionReferences,
     summaries: Vec<ShownSummary>,
     screen: Screen,
+    classes: Vec<RegionClass>,
     outcome: FunctionalOutcome,
 }
 
 impl FunctionalCamera {
-    /// Makes a camera in the state after a reset.
+    /// Makes a camera in the state after a reset, whose regions are all [`RegionClass::Normal`].
     #[must_use]
     pub fn new(camera: &Camera) -> Self {
         Self {
             references: RegionReferences::without_references(camera),
             summaries: no_summaries(camera),
             screen: Screen::black(camera),
+            classes: vec![RegionClass::default(); index(camera.regions())],
             outcome: FunctionalOutcome::new(camera),
             camera: camera.clone(),
         }
@@ -118,7 +122,23 @@ impl FunctionalCamera {
         &self.camera
     }
 
-    /// Resets references, summaries and the screen.
+    /// Returns the class of every region in the next frame.
+    #[must_use]
+    pub fn classes(&self) -> &[RegionClass] {
+        &self.classes
+    }
+
+    /// Sets the class of every region, from the next frame on.
+    ///
+    /// # Errors
+    /// Returns the errors of [`Camera::check_classes`]. The classes are then unchanged.
+    pub fn set_classes(&mut self, classes: &[RegionClass]) -> Result<(), ModelError> {
+        self.camera.check_classes(classes)?;
+        self.classes.copy_from_slice(classes);
+        Ok(())
+    }
+
+    /// Resets references, summaries and the screen. The classes of the regions stay.
     pub fn reset(&mut self) {
         self.references = RegionReferences::without_references(&self.camera);
         self.summaries = no_summaries(&self.camera);
@@ -201,25 +221,28 @@ impl FunctionalCamera {
 
     /// Computes the scores, SRS and TRS of one region.
     fn decide(&mut self, region: u32) {
-        let Self { camera, references, outcome, .. } = self;
+        let Self { camera, references, classes, outcome, .. } = self;
         let at = index(region);
+        let class = classes[at];
+        let thresholds = camera.class_thresholds(class);
+        let ClassThresholds { features, temporal_level, min_count, summary_level: _ } = thresholds;
         let scored_region = FrameRegion::new(camera, &outcome.denoised, region);
         let scored_region = scored_region.with_reference(references.frame(region));
-        for (feature, scores) in camera.features().iter().zip(&mut outcome.scores) {
+        for (feature, scores) in features.iter().zip(&mut outcome.scores) {
             // A feature without a level ignores this argument.
             scores[at] = score(feature, feature.level().unwrap_or(0), &scored_region);
         }
         if let Some(radius) = camera.displacement_feature().and_then(SpatialFeature::radius) {
             outcome.displacements[at] = flow_match(&scored_region, radius).displacement;
         }
-        let votes = camera
-            .features()
+        let votes = features
             .iter()
             .zip(&outcome.scores)
             .map(|(feature, scores)| scores[at] >= feature.min_score());
-        let srs = combine_votes(camera.combine(), votes);
-        let count = changed_pixels(&scored_region, camera.temporal().level);
-        let trs = count >= camera.temporal().min_count;
+        let voted = combine_votes(camera.combine(), votes);
+        let srs = class.forced_srs().unwrap_or(voted);
+        let count = changed_pixels(&scored_region, temporal_level);
+        let trs = count >= min_count;
         outcome.srs[at] = srs;
         outcome.trs[at] = trs;
         outcome.active[at] = srs && trs;
@@ -237,10 +260,10 @@ impl FunctionalCamera {
 
     /// Applies the decision for one region: the action, the screen, the reference and the summary.
     fn apply_decision(&mut self, region: u32) {
-        let Self { camera, references, summaries, screen, outcome } = self;
+        let Self { camera, references, summaries, screen, classes, outcome } = self;
         let at = index(region);
         let means = &outcome.means[at];
-        let level = camera.periphery().map_or(0, |periphery| periphery.level);
+        let level = camera.class_thresholds(classes[at]).summary_level.unwrap_or(0);
         let (srs, trs) = (outcome.srs[at], outcome.trs[at]);
         let action = summaries[at].decide(camera.irrelevant(), srs, trs, means, level);
         outcome.actions[at] = action;

@@ -2,14 +2,15 @@
 //! The feature `corner`: FAST 5/8.
 
 use crate::kernel::{WindowRows, WindowSides, extended_block};
+use crate::zones::BlockLevels;
 use foveate_lanes::{BLOCK_LANES, Block, PixelLane, best_arc};
 
-/// Adds one to every lane whose pixel is a corner at `level`.
+/// Adds one to every lane whose pixel is a corner at its level.
 #[inline(always)]
 pub(crate) fn count_corners<T: PixelLane>(
     windows: WindowRows<'_, T>,
     sides: impl WindowSides<T>,
-    level: T,
+    levels: impl BlockLevels<T>,
     hits: &mut [Block<T>],
 ) {
     for (at, hits) in hits.iter_mut().enumerate() {
@@ -21,6 +22,7 @@ pub(crate) fn count_corners<T: PixelLane>(
             let (nw, n, ne) = sides.window_row(above, at, i);
             let (w, center, e) = sides.window_row(here, at, i);
             let (sw, s, se) = sides.window_row(below, at, i);
+            let level = levels.level(at, i);
             let ring = [nw, n, ne, e, se, s, sw, w];
             let bright = best_arc(ring, T::min, T::max) > center.saturating_plus(level);
             let dark = best_arc(ring, T::max, T::min) < center.saturating_minus(level);

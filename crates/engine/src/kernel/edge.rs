@@ -5,14 +5,15 @@
 //! sum of three differences of pixels. It is compared with half the level, rounded down.
 
 use crate::kernel::{WindowRows, WindowSides, extended_block};
+use crate::zones::BlockLevels;
 use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
 
-/// Adds one to every lane whose window is an edge. `half` is half of the level, rounded down.
+/// Adds one to every lane whose window is an edge. `halves` are half of the levels, rounded down.
 #[inline(always)]
 pub(crate) fn count_edges<T: PixelLane>(
     windows: WindowRows<'_, T>,
     sides: impl WindowSides<T>,
-    half: T::Signed,
+    halves: impl BlockLevels<T::Signed>,
     hits: &mut [Block<T>],
 ) {
     for (at, hits) in hits.iter_mut().enumerate() {
@@ -29,7 +30,7 @@ pub(crate) fn count_edges<T: PixelLane>(
             let sum = across + down + minus(se, nw);
             let difference = across - down + minus(ne, sw);
             let larger = sum.max(-sum).max(difference.max(-difference));
-            sums[i] += T::from_hit(larger > half);
+            sums[i] += T::from_hit(larger > halves.level(at, i));
         }
         *hits = sums;
     }

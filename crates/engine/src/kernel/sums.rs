@@ -74,12 +74,13 @@ fn by_constant<const SIDE: usize, V: Copy + Into<u64>>(columns: &[V], regions: &
     }
 }
 
-/// Writes a value of each region into all of its columns.
+/// Writes a value of each region into all of its columns. `value` gets the number of the region in
+/// its band, and the region's number of `regions`.
 #[inline(always)]
 pub(crate) fn spread_over_columns<T: Copy>(
     regions: &[u64],
     side: usize,
-    value: impl Fn(u64) -> T,
+    value: impl Fn(usize, u64) -> T,
     columns: &mut [T],
 ) {
     match side {
@@ -88,8 +89,9 @@ pub(crate) fn spread_over_columns<T: Copy>(
         32 => spread_constant::<32, T>(regions, value, columns),
         64 => spread_constant::<64, T>(regions, value, columns),
         _ => {
-            for (columns, &region) in columns.chunks_exact_mut(side).zip(regions) {
-                columns.fill(value(region));
+            for (at, (columns, &region)) in columns.chunks_exact_mut(side).zip(regions).enumerate()
+            {
+                columns.fill(value(at, region));
             }
         }
     }
@@ -98,10 +100,11 @@ pub(crate) fn spread_over_columns<T: Copy>(
 #[inline(always)]
 fn spread_constant<const SIDE: usize, T: Copy>(
     regions: &[u64],
-    value: impl Fn(u64) -> T,
+    value: impl Fn(usize, u64) -> T,
     columns: &mut [T],
 ) {
-    for (columns, &region) in columns.as_chunks_mut::<SIDE>().0.iter_mut().zip(regions) {
-        *columns = [value(region); SIDE];
+    let regions = columns.as_chunks_mut::<SIDE>().0.iter_mut().zip(regions);
+    for (at, (columns, &region)) in regions.enumerate() {
+        *columns = [value(at, region); SIDE];
     }
 }

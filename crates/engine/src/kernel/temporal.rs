@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The temporal score: the number of pixels that differ from their reference by more than a level.
+//! The temporal score: the number of pixels that differ from their reference by more than their level.
 
+use crate::zones::BlockLevels;
 use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
 
 /// Adds one to every lane that has changed, and replaces the reference by the current pixels.
@@ -8,13 +9,13 @@ use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
 pub(crate) fn count_and_replace<T: PixelLane>(
     now: &[Block<T>],
     reference: &mut [Block<T>],
-    level: T,
+    levels: impl BlockLevels<T>,
     hits: &mut [Block<T>],
 ) {
-    for ((now, reference), hits) in now.iter().zip(reference).zip(hits) {
+    for (at, ((now, reference), hits)) in now.iter().zip(reference).zip(hits).enumerate() {
         let mut sums = *hits;
         for i in 0..BLOCK_LANES {
-            sums[i] += changed(now[i], reference[i], level);
+            sums[i] += changed(now[i], reference[i], levels.level(at, i));
         }
         *hits = sums;
         *reference = *now;
@@ -27,14 +28,15 @@ pub(crate) fn count_and_replace<T: PixelLane>(
 pub(crate) fn count_and_store<T: PixelLane>(
     now: &[Block<T>],
     reference: &[Block<T>],
-    level: T,
+    levels: impl BlockLevels<T>,
     hits: &mut [Block<T>],
     store: &mut [Block<T>],
 ) {
-    for (((now, reference), hits), store) in now.iter().zip(reference).zip(hits).zip(store) {
+    let blocks = now.iter().zip(reference).zip(hits).zip(store);
+    for (at, (((now, reference), hits), store)) in blocks.enumerate() {
         let mut sums = *hits;
         for i in 0..BLOCK_LANES {
-            sums[i] += changed(now[i], reference[i], level);
+            sums[i] += changed(now[i], reference[i], levels.level(at, i));
         }
         *hits = sums;
         *store = *now;

@@ -10,3 +10,4 @@ mod memory;
 mod properties;
 mod random_cameras;
 mod refusals;
+mod zones;

@@ -2,8 +2,9 @@
 //! Random cameras, the inputs of the comparison of engine and model.
 
 use foveate_camera::{
-    Camera, CameraConfig, Decimal, DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood,
-    Payload, ReferencePolicy, SpatialConfig, VoteCombination,
+    Camera, CameraConfig, Decimal, DenoiseFilter, FeatureKind, IrrelevantRendering, KeenConfig,
+    KeenPeripheryConfig, KeenSpatialConfig, KeenTemporalConfig, Neighborhood, Payload,
+    ReferencePolicy, SpatialConfig, VoteCombination, ZonesConfig,
 };
 use proptest::prelude::*;
 use proptest::sample::{select, subsequence};
@@ -67,6 +68,40 @@ pub(crate) fn cameras() -> impl Strategy<Value = Camera> {
                 })
             },
         )
+    })
+}
+
+/// Returns cameras of [`cameras`] with zones.
+pub(crate) fn zoned_cameras() -> impl Strategy<Value = Camera> {
+    cameras().prop_flat_map(|camera| {
+        let (side, bits, max) = (camera.region_size(), camera.pixel_bits(), camera.pixel_max());
+        let keen = |own: &SpatialConfig| {
+            feature(own.feature, side, bits, own.mean_fraction_bits.unwrap_or(0))
+        };
+        let features: Vec<_> = camera.config().spatial.iter().map(keen).collect();
+        let temporal = (small(max - 1), small(side * side));
+        let levels = (small(max - 1), small(max));
+        (features, temporal, levels).prop_map(move |(features, temporal, levels)| {
+            let mut config = camera.config().clone();
+            let summaries = |level| camera.periphery().map(|_| level);
+            let entry = |one: SpatialConfig| KeenSpatialConfig {
+                feature: one.feature,
+                level: one.level,
+                min_score: one.min_score,
+            };
+            config.zones = Some(ZonesConfig {
+                off_level: summaries(levels.1),
+                keen: KeenConfig {
+                    spatial: features.into_iter().map(entry).collect(),
+                    temporal: KeenTemporalConfig {
+                        level: Some(temporal.0),
+                        min_count: Some(temporal.1),
+                    },
+                    periphery: KeenPeripheryConfig { level: summaries(levels.0) },
+                },
+            });
+            config.validate().unwrap_or_else(|error| panic!("{error}\n{config:?}"))
+        })
     })
 }
 

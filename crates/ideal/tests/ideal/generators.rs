@@ -2,8 +2,9 @@
 //! Random cameras and clips.
 
 use foveate_camera::{
-    Camera, CameraConfig, Decimal, DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood,
-    Payload, ReferencePolicy, SpatialConfig, VoteCombination,
+    Camera, CameraConfig, Decimal, DenoiseFilter, FeatureKind, IrrelevantRendering, KeenConfig,
+    KeenPeripheryConfig, KeenSpatialConfig, KeenTemporalConfig, Neighborhood, Payload,
+    ReferencePolicy, RegionClass, SpatialConfig, VoteCombination, ZonesConfig,
 };
 use foveate_frame::Frame;
 use proptest::prelude::*;
@@ -96,6 +97,54 @@ pub(crate) fn cameras(rounded: bool) -> impl Strategy<Value = Camera> {
             },
         )
     })
+}
+
+/// Returns cameras of [`cameras`] without rounding that have zones.
+pub(crate) fn zoned_cameras() -> impl Strategy<Value = Camera> {
+    cameras(false).prop_flat_map(|camera| {
+        let (side, bits, max) = (camera.region_size(), camera.pixel_bits(), camera.pixel_max());
+        let keen = |own: &SpatialConfig| {
+            feature(own.feature, side, bits, own.mean_fraction_bits.unwrap_or(0))
+        };
+        let features: Vec<_> = camera.config().spatial.iter().map(keen).collect();
+        let temporal = (small(max - 1), small(side * side));
+        let levels = (small(max - 1), small(max));
+        (features, temporal, levels).prop_map(move |(features, temporal, levels)| {
+            let mut config = camera.config().clone();
+            let summaries = |level| camera.periphery().map(|_| level);
+            let spatial =
+                features.into_iter().map(|SpatialConfig { feature, level, min_score, .. }| {
+                    KeenSpatialConfig { feature, level, min_score }
+                });
+            config.zones = Some(ZonesConfig {
+                off_level: summaries(levels.1),
+                keen: KeenConfig {
+                    spatial: spatial.collect(),
+                    temporal: KeenTemporalConfig {
+                        level: Some(temporal.0),
+                        min_count: Some(temporal.1),
+                    },
+                    periphery: KeenPeripheryConfig { level: summaries(levels.0) },
+                },
+            });
+            config.validate().unwrap_or_else(|error| panic!("{error}\n{config:?}"))
+        })
+    })
+}
+
+/// Returns the classes of the regions of a camera for each frame of a clip.
+pub(crate) fn maps(camera: &Camera, frames: usize, seed: u64) -> Vec<Vec<RegionClass>> {
+    let mut state = seed | 1;
+    let mut class = move || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        RegionClass::ALL[(state >> 20) as usize % RegionClass::ALL.len()]
+    };
+    let mut map = || (0..camera.regions()).map(|_| class()).collect();
+    // Every map holds for two frames.
+    let maps: Vec<Vec<_>> = (0..frames.div_ceil(2)).map(|_| map()).collect();
+    (0..frames).map(|frame| maps[frame / 2].clone()).collect()
 }
 
 fn small(max: u32) -> impl Strategy<Value = u32> {

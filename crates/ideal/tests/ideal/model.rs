@@ -5,7 +5,8 @@
 use crate::generators;
 use crate::generators::{ChangeScript, FrameChange, cameras, script_frames};
 use foveate_camera::{
-    Camera, CameraConfig, Decimal, DenoiseFilter, FeatureKind, Neighborhood, SpatialConfig,
+    Camera, CameraConfig, Decimal, DenoiseFilter, FeatureKind, Neighborhood, RegionClass,
+    SpatialConfig,
 };
 use foveate_frame::ByteFrame;
 use foveate_frame::Frame;
@@ -52,11 +53,20 @@ fn assert_decisions(
 }
 
 fn check_exact(camera: &Camera, frames: &[Frame]) {
+    check_exact_with_maps(camera, frames, &[]);
+}
+
+/// Compares both cameras on a clip, with a map for each frame, or without maps.
+fn check_exact_with_maps(camera: &Camera, frames: &[Frame], maps: &[Vec<RegionClass>]) {
     let mut ideal = IdealCamera::new(camera);
     let mut model = FunctionalCamera::new(camera);
     for round in 0..2 {
         for (number, frame) in frames.iter().enumerate() {
             let context = format!("round {round}, frame {number}, {:?}", camera.config());
+            if let Some(map) = maps.get(number) {
+                model.set_classes(map).unwrap();
+                ideal.set_classes(map).unwrap();
+            }
             let model = model.step(frame).unwrap();
             let ideal = ideal.step(&ByteFrame::from(frame)).unwrap();
             assert_decisions(ideal, model, camera, &context);
@@ -85,6 +95,14 @@ proptest! {
         (camera, seed, script) in cameras(false).prop_flat_map(with_script),
     ) {
         check_exact(&camera, &script_frames(&camera, seed, &script));
+    }
+
+    #[test]
+    fn zones_equal_those_of_the_model(
+        (camera, seed, script) in generators::zoned_cameras().prop_flat_map(with_script),
+    ) {
+        let frames = script_frames(&camera, seed, &script);
+        check_exact_with_maps(&camera, &frames, &generators::maps(&camera, frames.len(), seed));
     }
 
     /// The model's mean is `floor(v + h)` quanta of 2^-f for the real mean v, a multiple of 1/n,

@@ -195,6 +195,8 @@ fn recipe_with_all_features(
         raw_payload: side % 2 == 1,
         constant: false,
         deep: false,
+        zones: None,
+        forced_srs: None,
     }
 }
 

@@ -25,3 +25,4 @@ mod serial;
 mod sync;
 mod temporal_behavior;
 mod waveforms;
+mod zones;

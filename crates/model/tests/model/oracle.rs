@@ -48,27 +48,41 @@ pub(crate) fn oracle_history_with_thresholds(
     recipes: &[DesignParameters],
     clip: &[Frame],
 ) -> Vec<OracleOutcome> {
+    let all_regions = |recipe: &DesignParameters| -> Vec<DesignParameters> {
+        (0..recipe.columns() * recipe.rows()).map(|_| recipe.clone()).collect()
+    };
     let mut history: Vec<OracleOutcome> = Vec::new();
     for (recipe, frame) in recipes.iter().zip(clip) {
-        let outcome = oracle_outcome(recipe, &history, frame);
-        history.push(outcome);
-        let last = history.len() - 1;
-        let rendered = render(recipe, &history);
-        history[last].rendered = rendered;
+        add_to_history(&mut history, &all_regions(recipe), frame);
     }
     history
 }
 
-fn oracle_outcome(
+/// Returns the results for every frame of a clip. A map has the codes of the classes of all regions
+/// in one frame.
+pub(crate) fn oracle_history_with_maps(
     recipe: &DesignParameters,
-    history: &[OracleOutcome],
-    frame: &Frame,
-) -> OracleOutcome {
-    let mut outcome = outcome_without_regions(recipe, frame);
-    for region in 0..recipe.columns() * recipe.rows() {
-        outcome.regions.push(oracle_region(recipe, (history, history), &outcome, region));
+    maps: &[Vec<u8>],
+    clip: &[Frame],
+) -> Vec<OracleOutcome> {
+    let mut history: Vec<OracleOutcome> = Vec::new();
+    for (map, frame) in maps.iter().zip(clip) {
+        let regions: Vec<_> = map.iter().map(|&code| recipe.of_class(code)).collect();
+        add_to_history(&mut history, &regions, frame);
     }
-    outcome
+    history
+}
+
+/// Adds the results of the next frame, with the thresholds of each region.
+fn add_to_history(history: &mut Vec<OracleOutcome>, regions: &[DesignParameters], frame: &Frame) {
+    let mut outcome = outcome_without_regions(&regions[0], frame);
+    for (region, recipe) in (0..).zip(regions) {
+        let own = oracle_region(recipe, (&history[..], &history[..]), &outcome, region);
+        outcome.regions.push(own);
+    }
+    history.push(outcome);
+    let rendered = render(&regions[0], history);
+    history.last_mut().unwrap().rendered = rendered;
 }
 
 /// Makes the results of a frame, without its regions.
@@ -185,7 +199,8 @@ pub(crate) fn oracle_region(
         scores.push(score);
     }
     let needed = if recipe.all_must_vote { votes.len() } else { 1 };
-    let srs = votes.iter().filter(|&&vote| vote).count() >= needed;
+    let voted = votes.iter().filter(|&&vote| vote).count() >= needed;
+    let srs = recipe.forced_srs.unwrap_or(voted);
 
     let temporal_hits: Vec<bool> = match &referenced {
         None => vec![true; pixels.len()],

@@ -3,7 +3,10 @@
 
 use std::fmt::Write;
 
-use foveate_design::{Camera, DenoiseFilter, Design, DesignConfig, FeatureKind, Organization};
+use foveate_design::{
+    Camera, Decimal, DenoiseFilter, Design, DesignConfig, FeatureKind, KeenConfig,
+    KeenPeripheryConfig, KeenSpatialConfig, KeenTemporalConfig, Organization, ZonesConfig,
+};
 use proptest::prelude::*;
 use proptest::sample::{select, subsequence};
 
@@ -28,6 +31,10 @@ pub(crate) struct DesignParameters {
     pub(crate) constant: bool,
     /// `hardware.pipelining = "deep"`.
     pub(crate) deep: bool,
+    /// The thresholds of zones, of a camera that has them.
+    pub(crate) zones: Option<ZoneParameters>,
+    /// The SRS of regions whose class leaves the votes out.
+    pub(crate) forced_srs: Option<bool>,
 }
 
 /// The table `[periphery]`.
@@ -58,7 +65,51 @@ pub(crate) struct FeatureParameters {
     pub(crate) radius: i64,
 }
 
+/// The thresholds of zones.
+#[derive(Clone, Debug)]
+pub(crate) struct ZoneParameters {
+    /// Levels and minima of `keen` regions, in the order of the features.
+    pub(crate) features: Vec<(i64, i64)>,
+    pub(crate) temporal_level: i64,
+    pub(crate) temporal_min: i64,
+    pub(crate) summary_level: i64,
+    pub(crate) off_level: i64,
+}
+
+impl FeatureParameters {
+    /// Returns true if the feature counts pixels, so that it has a level and a whole minimum.
+    fn has_level(&self) -> bool {
+        matches!(self.name, "edge" | "corner" | "segment")
+    }
+}
+
 impl DesignParameters {
+    /// Returns the design whose regions all have the class of this code.
+    pub(crate) fn of_class(&self, code: u8) -> Self {
+        let Some(zones) = &self.zones else {
+            assert_eq!(code, 0, "a camera without zones has one class");
+            return self.clone();
+        };
+        let mut own = self.clone();
+        match code {
+            0 => {}
+            1 => {
+                own.forced_srs = Some(false);
+                own.periphery.iter_mut().for_each(|periphery| periphery.level = zones.off_level);
+            }
+            2 => {
+                for (feature, keen) in own.features.iter_mut().zip(&zones.features) {
+                    (feature.level, feature.min_milli) = *keen;
+                }
+                (own.temporal_level, own.temporal_min) = (zones.temporal_level, zones.temporal_min);
+                own.periphery.iter_mut().for_each(|one| one.level = zones.summary_level);
+            }
+            3 => own.forced_srs = Some(true),
+            other => panic!("there is no class {other}"),
+        }
+        own
+    }
+
     pub(crate) fn pixel_max(&self) -> i64 {
         (1 << self.bits) - 1
     }
@@ -123,7 +174,33 @@ impl DesignParameters {
 
     /// Returns the camera, for which no organization has to have its features.
     pub(crate) fn camera(&self) -> Camera {
-        self.config().camera.validate().unwrap_or_else(|e| panic!("{e}\n{}", self.toml()))
+        let mut config = self.config().camera;
+        config.zones = self.zones.as_ref().map(|zones| self.zones_config(zones));
+        config.validate().unwrap_or_else(|e| panic!("{e}\n{}\n{:?}", self.toml(), self.zones))
+    }
+
+    fn zones_config(&self, zones: &ZoneParameters) -> ZonesConfig {
+        let number = |value: i64| u32::try_from(value).unwrap();
+        let feature = |(own, &(level, min_milli)): (&FeatureParameters, _)| KeenSpatialConfig {
+            feature: FeatureKind::ALL.iter().copied().find(|kind| kind.name() == own.name).unwrap(),
+            level: own.has_level().then_some(number(level)),
+            min_score: Some(Decimal::from_billionths(
+                1_000_000 * u64::try_from(min_milli).unwrap(),
+            )),
+        };
+        // Levels of summaries are keys only if there are summaries.
+        let summaries = |level| self.periphery.map(|_| number(level));
+        ZonesConfig {
+            off_level: summaries(zones.off_level),
+            keen: KeenConfig {
+                spatial: self.features.iter().zip(&zones.features).map(feature).collect(),
+                temporal: KeenTemporalConfig {
+                    level: Some(number(zones.temporal_level)),
+                    min_count: Some(number(zones.temporal_min)),
+                },
+                periphery: KeenPeripheryConfig { level: summaries(zones.summary_level) },
+            },
+        }
     }
 
     /// Returns the pipelined design.
@@ -171,7 +248,7 @@ impl DesignParameters {
         }
         for feature in &self.features {
             let (whole, rest) = (feature.min_milli / 1000, feature.min_milli % 1000);
-            let counts = matches!(feature.name, "edge" | "corner" | "segment");
+            let counts = feature.has_level();
             let fraction = if counts { String::new() } else { format!(".{rest:03}") };
             write!(text, "[[spatial]]\nfeature = \"{}\"\n", feature.name).unwrap();
             writeln!(text, "min_score = {whole}{fraction}").unwrap();
@@ -192,6 +269,30 @@ impl DesignParameters {
 /// Generates every kind of camera, with frames of about three regions.
 pub(crate) fn arbitrary_cameras() -> impl Strategy<Value = DesignParameters> {
     arbitrary_parameters_with_sides(few_pixels(), FeatureKind::ALL.to_vec())
+}
+
+/// Generates every kind of camera with zones, with frames of about three regions.
+pub(crate) fn arbitrary_zoned_cameras() -> impl Strategy<Value = DesignParameters> {
+    arbitrary_cameras().prop_flat_map(|recipe| {
+        let (side, bits, max) = (recipe.side, recipe.bits, recipe.pixel_max());
+        let keen = |own: &FeatureParameters| {
+            arbitrary_feature(own.name, side, bits, own.fraction_bits)
+                .prop_map(|keen| (keen.level, keen.min_milli))
+        };
+        let features: Vec<_> = recipe.features.iter().map(keen).collect();
+        let temporal = (small_numbers(max - 1), small_numbers(side * side));
+        let levels = (small_numbers(max - 1), small_numbers(max));
+        (features, temporal, levels).prop_map(move |(features, temporal, levels)| {
+            let zones = ZoneParameters {
+                features,
+                temporal_level: temporal.0,
+                temporal_min: temporal.1,
+                summary_level: levels.0,
+                off_level: levels.1,
+            };
+            DesignParameters { zones: Some(zones), ..recipe.clone() }
+        })
+    })
 }
 
 /// Generates every kind of pipelined design, with frames of about three regions.
@@ -260,6 +361,8 @@ fn without_periphery(
                     constant: on[5] && on[6],
                     periphery: None,
                     deep: false,
+                    zones: None,
+                    forced_srs: None,
                 };
                 let last_sent = on[2] && recipe.can_start_without_reference();
                 DesignParameters { last_sent, ..recipe }

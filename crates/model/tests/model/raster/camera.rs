@@ -151,6 +151,8 @@ fn recipe(number: usize) -> RasterParameters {
             raw_payload: on(6),
             constant: on(5),
             deep: false,
+            zones: None,
+            forced_srs: None,
         },
         word_pixels: pixels,
         deep: on(7),

@@ -38,6 +38,8 @@ fn recipe(last: FeatureParameters) -> RasterParameters {
             raw_payload: false,
             constant: true,
             deep: false,
+            zones: None,
+            forced_srs: None,
         },
         word_pixels: 1,
         deep: false,

@@ -186,6 +186,8 @@ fn clips_over_the_matrix() {
                     raw_payload: on(4),
                     constant: number.is_multiple_of(11),
                     deep: number % 4 < 2,
+                    zones: None,
+                    forced_srs: None,
                 };
                 let base = base.with_a_start();
                 let frames = hard_frames(&base);
@@ -220,6 +222,8 @@ fn every_fold_of_a_grid_of_seven() {
                 raw_payload: false,
                 constant: false,
                 deep: false,
+                zones: None,
+                forced_srs: None,
             };
             let clip = hard_frames(&base);
             check(&SerialParameters { base, raster, fold }, &clip);
@@ -247,6 +251,8 @@ fn the_largest_region() {
             raw_payload: true,
             constant: false,
             deep: false,
+            zones: None,
+            forced_srs: None,
         };
         let clip = hard_frames(&base);
         check(&SerialParameters { base, raster, fold: 2 }, &clip[2..5]);

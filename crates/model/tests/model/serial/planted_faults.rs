@@ -36,6 +36,8 @@ fn recipe() -> SerialParameters {
             raw_payload: false,
             constant: true,
             deep: false,
+            zones: None,
+            forced_srs: None,
         },
         raster: true,
         fold: 2,
