@@ -5,7 +5,7 @@
 `default_nettype none
 
 module magnitude_above #(
-    parameter WIDTH = 9,  // 0: the result is a comparison (few LUTs); 1: it is a bit of a difference (a short path)
+    parameter WIDTH = 9,  // bits of the signed value
     parameter BORROW = 0  // 0: the result is a comparison, which takes few LUTs; 1: the result is a bit of a difference, which makes a short path
 ) (
     input  wire [WIDTH-1:0] value_i,  // the signed value
