@@ -136,6 +136,18 @@ module rpu (
         .clk_i(clk_i), .rst_i(rst_i), .step_i(front_step), .address_o(front_address), .last_o(front_last)
     );
 {%- endif %}
+{%- if zones %}
+
+    // The class of the region in the frame whose pixels leave the last window.
+    wire [1:0] front_class, held_class;
+    region_class u_class (
+        .clk_i(clk_i), .rst_i(rst_i), .step_i(front_step), .last_i(front_last), .class_i(zone_i),
+        .class_o(front_class), .held_o(held_class)
+    );
+    {%- if !windowed.is_empty() %}
+    wire front_keen = front_class == 2'd2;
+    {%- endif %}
+{%- endif %}
 {%- for feature in windowed %}
 
     wire {= feature.name =}_hit;
@@ -169,6 +181,9 @@ module rpu (
     reg tail_{= feature.name =}_hit;
     {%- endfor %}
     {%- endif %}
+    {%- if zones %}
+    reg [1:0] tail_class;
+    {%- endif %}
     always @(posedge clk_i) begin
         tail_step <= front_step && !rst_i;
         tail_last <= front_last;
@@ -181,6 +196,9 @@ module rpu (
         {%- for feature in windowed %}
         tail_{= feature.name =}_hit <= {= feature.name =}_hit;
         {%- endfor %}
+        {%- endif %}
+        {%- if zones %}
+        tail_class <= front_class;
         {%- endif %}
     end
 {%- else %}
@@ -195,15 +213,53 @@ module rpu (
     {%- for feature in windowed %}
     wire tail_{= feature.name =}_hit = {= feature.name =}_hit;
     {%- endfor %}
+    {%- if zones %}
+    wire [1:0] tail_class = front_class;
+    {%- endif %}
 {%- endif %}
 {%- if deep %}
 
     // The store is read and written in one clock. Pixels are compared in that clock and counted in the next one.
     reg count_step, count_last;
+    {%- if zones %}
+    reg [1:0] count_class;
+    {%- endif %}
     always @(posedge clk_i) begin
         count_step <= tail_step && !rst_i;
         count_last <= tail_last;
+        {%- if zones %}
+        count_class <= tail_class;
+        {%- endif %}
     end
+{%- endif %}
+{%- if zones %}
+
+    // The class in the frame that is counted, in the last complete frame (done), and in the frame that is decided.
+    wire {= count =}_keen = {= count =}_class == 2'd2;
+    {%- if tail_delay %}
+    reg [1:0] done_class;
+    {%- if second_pass %}
+    reg [1:0] decided_class;
+    {%- endif %}
+    always @(posedge clk_i) begin
+        if ({= count =}_step && {= count =}_last) begin
+            done_class <= {= count =}_class;
+            {%- if second_pass %}
+            decided_class <= done_class;
+            {%- endif %}
+        end
+    end
+    wire unused_held_class = |held_class;
+    {%- else %}
+    wire [1:0] done_class = held_class;
+    {%- endif %}
+    {%- if !second_pass %}
+    wire [1:0] decided_class = done_class;
+    {%- endif %}
+    wire decided_keen = decided_class == 2'd2;
+    {%- if segment.is_some() %}
+    wire done_keen = done_class == 2'd2;
+    {%- endif %}
 {%- endif %}
 
     wire done, stored, second;
@@ -397,7 +453,7 @@ module rpu (
 {%- endfor %}
     decision #(.FEATURES({= votes.len() =}), .ALL({= all =})) u_decision (
         .clk_i(clk_i), .rst_i(rst_i), .valid_i(decided),
-        .votes_i({ {%- for vote in votes %}{% if !loop.first %}, {% endif %}{= vote =}_vote{% endfor -%} }), .trs_i(temporal_count_vote),
+        .votes_i({% if zones %}decided_class[0] ? { {{= votes.len() =} {decided_class[1]} } } : {% endif %}{ {%- for vote in votes %}{% if !loop.first %}, {% endif %}{= vote =}_vote{% endfor -%} }), .trs_i(temporal_count_vote),
         .srs_o(srs), .trs_o(trs_o), .active_o(active_o), .forward_o(forward)
     );
     assign srs_o = srs;

@@ -17,6 +17,9 @@ pub(crate) fn check_fit(design: &Design, sensor: Option<&Sensor>) -> Result<(), 
         (InterfaceKind::Axi, Hardware::Raster(hardware), sensor) => {
             check_raster(design.with_hardware(hardware), sensor)
         }
+        (InterfaceKind::Ports, Hardware::Pipelined(_), None) if design.zones().is_some() => {
+            Err("an array on a board has no source of classes; leave [zones] out".to_owned())
+        }
         (InterfaceKind::Ports, Hardware::Pipelined(hardware), None) => {
             check_array(design.with_hardware(hardware))
         }

@@ -33,9 +33,8 @@ pub struct CameraConfig {
     /// The summaries that irrelevant regions send, with `render.irrelevant = "mean"`.
     #[serde(skip_serializing_if = "PeripheryConfig::is_empty")]
     pub periphery: PeripheryConfig,
-    /// The thresholds of classes of regions, or `None` for a camera without zones. No organization
-    /// of the hardware computes zones yet, so files cannot have them.
-    #[serde(skip)]
+    /// The classes of regions and their thresholds, or `None` for a camera without zones.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub zones: Option<ZonesConfig>,
 }
 

@@ -5,7 +5,7 @@
 use crate::choice::quoted_list;
 use crate::{
     ConfigError, DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood, Payload,
-    ReferencePolicy, VoteCombination,
+    ReferencePolicy, RegionClass, VoteCombination,
 };
 use crate::{FLOW_RADII, MAX_SIDE, MEAN_FRACTION_BITS, PIXEL_BITS, REGION_SIZES};
 use AcceptedValues::{Names, Text, Whole};
@@ -33,8 +33,8 @@ impl fmt::Display for AcceptedValues {
     }
 }
 
-/// A dotted key and the values that it accepts. The array of tables `spatial` is written without an
-/// index.
+/// A dotted key and the values that it accepts. An array of tables, such as `spatial`, is written
+/// without an index.
 pub type ConfigKey = (&'static str, AcceptedValues);
 
 /// Every key of a camera.
@@ -58,7 +58,25 @@ pub const CAMERA_KEYS: &[ConfigKey] = &[
     ("render.payload", Names(Payload::NAMES)),
     ("periphery.blocks", Text("1, 2 or 4, and a divisor of region.size")),
     ("periphery.level", Text("a whole number >= 0, in grey levels")),
+    ("zones.off_level", Text("a whole number >= 0, in grey levels")),
+    ("zones.map", Text("the path of an image")),
+    ("zones.classes", Text("a list of strings with a digit 0..3 for each region or pixel")),
+    ("zones.areas.class", Names(RegionClass::NAMES)),
+    ("zones.areas.rectangle", Text("[left, top, width, height] in pixels")),
+    ("zones.areas.polygon", Text("three or more corners [x, y] in pixels")),
+    ("zones.keen.spatial.feature", Names(FeatureKind::NAMES)),
+    ("zones.keen.spatial.level", Text("a whole number >= 0, in grey levels")),
+    (
+        "zones.keen.spatial.min_score",
+        Text("a number >= 0 with at most nine digits after the point"),
+    ),
+    ("zones.keen.temporal.level", Text("a whole number >= 0, in grey levels")),
+    ("zones.keen.temporal.min_count", Text("a whole number >= 0, in pixels")),
+    ("zones.keen.periphery.level", Text("a whole number >= 0, in grey levels")),
 ];
+
+/// The keys whose values are arrays of tables.
+const ARRAYS_OF_TABLES: &[&str] = &["spatial", "zones.areas", "zones.keen.spatial"];
 
 /// Returns a description of the values that the key at `path` accepts. A path has indices, such as
 /// `spatial[0].level`.
@@ -76,7 +94,7 @@ pub(crate) fn accepted_values(
         .collect();
     match known.find(|(key, _)| *key == dotted) {
         Some((_, values)) => values.to_string(),
-        None if path == "spatial" => "an array of tables".to_owned(),
+        None if ARRAYS_OF_TABLES.contains(&&dotted[..]) => "an array of tables".to_owned(),
         None => "a table".to_owned(),
     }
 }
@@ -91,35 +109,38 @@ pub(crate) fn refuse_unknown(known: &[&ConfigKey], table: &Table) -> Result<(), 
                 section_names(known).map(str::to_owned),
             ));
         }
-        match value {
-            Value::Table(keys) => refuse_unknown_in(known, section, section, keys)?,
-            Value::Array(items) => {
-                for (index, item) in items.iter().enumerate() {
-                    if let Value::Table(keys) = item {
-                        let path = format!("{section}[{index}]");
-                        refuse_unknown_in(known, section, &path, keys)?;
-                    }
-                }
-            }
-            _ => {}
-        }
+        refuse_unknown_in(known, section, section, value)?;
     }
     Ok(())
 }
 
+/// Refuses the first unknown key in the value of a key, `plain` without indices and `shown` with
+/// them. A value that is not a table of keys is checked by its type later.
 fn refuse_unknown_in(
     known: &[&ConfigKey],
-    section: &str,
-    path: &str,
-    keys: &Table,
+    plain: &str,
+    shown: &str,
+    value: &Value,
 ) -> Result<(), ConfigError> {
-    let is_known = |key: &&String| known.iter().any(|(one, _)| *one == format!("{section}.{key}"));
-    match keys.keys().find(|key| !is_known(key)) {
-        None => Ok(()),
-        Some(key) => {
+    match value {
+        _ if known.iter().any(|(key, _)| *key == plain) => Ok(()),
+        Value::Table(keys) => keys.iter().try_for_each(|(key, value)| {
+            let (plain, shown) = (format!("{plain}.{key}"), format!("{shown}.{key}"));
+            let is_part = |whole: &str| {
+                whole
+                    .strip_prefix(&plain)
+                    .is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+            };
+            if known.iter().any(|(key, _)| is_part(key)) {
+                return refuse_unknown_in(known, &plain, &shown, value);
+            }
             let all = known.iter().map(|(key, _)| (*key).to_owned());
-            Err(unknown_key_error(&format!("{path}.{key}"), &format!("{section}.{key}"), all))
-        }
+            Err(unknown_key_error(&shown, &plain, all))
+        }),
+        Value::Array(items) => items.iter().enumerate().try_for_each(|(index, item)| {
+            refuse_unknown_in(known, plain, &format!("{shown}[{index}]"), item)
+        }),
+        _ => Ok(()),
     }
 }
 

@@ -8,9 +8,12 @@
 //! other crate validates a configuration or derives a width again. This crate does no I/O.
 
 mod action;
+mod base_classes;
 mod bounds;
 mod camera;
 mod choice;
+mod class_areas;
+mod class_thresholds;
 mod config;
 mod decimal;
 mod depth;
@@ -26,6 +29,7 @@ mod reciprocal;
 mod reference;
 mod region_class;
 mod sent_values;
+mod temporal_thresholds;
 pub mod toml_text;
 mod validation;
 mod width;
@@ -39,6 +43,7 @@ pub use choice::{
     DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood, Payload, ReferencePolicy,
     VoteCombination,
 };
+pub use class_thresholds::ClassThresholds;
 pub use config::{
     CameraConfig, DecisionConfig, DenoiseConfig, FrameConfig, PeripheryConfig, RegionConfig,
     RenderConfig, SpatialConfig, TemporalConfig,
@@ -57,7 +62,7 @@ pub use reciprocal::Reciprocal;
 pub use reference::ReferenceWriteTime;
 pub use region_class::{ClassMapError, RegionClass};
 pub use width::{bits_for, index_bits, mad_score_max};
-pub use zones::{ClassThresholds, Zones};
+pub use zones::Zones;
 pub use zones_config::{
-    KeenConfig, KeenPeripheryConfig, KeenSpatialConfig, KeenTemporalConfig, ZonesConfig,
+    AreaConfig, KeenConfig, KeenPeripheryConfig, KeenSpatialConfig, KeenTemporalConfig, ZonesConfig,
 };

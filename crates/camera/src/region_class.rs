@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The class of a region in a camera with zones, and maps, which have a class for every region.
 
-use crate::{Camera, choice};
+use crate::choice;
 use thiserror::Error;
 
 choice! {
@@ -76,31 +76,9 @@ pub enum ClassMapError {
     },
 }
 
-impl Camera {
-    /// Checks a map: the classes of all regions, numbered row by row.
-    ///
-    /// # Errors
-    /// Returns an error if there is not one class per region, or if the camera has no zones and a
-    /// class is not [`RegionClass::Normal`].
-    pub fn check_classes(&self, classes: &[RegionClass]) -> Result<(), ClassMapError> {
-        let (given, regions) = (classes.len(), self.regions());
-        if u32::try_from(given) != Ok(regions) {
-            return Err(ClassMapError::Count { given, regions });
-        }
-        let mut others = classes.iter().enumerate();
-        match others.find(|&(_, &class)| class != RegionClass::Normal) {
-            Some((region, &class)) if self.zones().is_none() => {
-                Err(ClassMapError::NoZones { region, class })
-            }
-            _ => Ok(()),
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{CameraConfig, ZonesConfig};
 
     #[test]
     fn codes_are_those_of_the_contract() {
@@ -111,23 +89,6 @@ mod tests {
                 RegionClass::from_code(code).map(RegionClass::code),
                 (code < 4).then_some(code)
             );
-        }
-    }
-
-    #[test]
-    fn maps_that_do_not_fit_are_refused() {
-        let mut config = CameraConfig::from_toml("frame={width=16,height=8}\n").unwrap();
-        let plain = config.validate().unwrap();
-        config.zones = Some(ZonesConfig::default());
-        let zoned = config.validate().unwrap();
-        let keen = [RegionClass::Normal, RegionClass::Keen];
-        assert_eq!(plain.check_classes(&[RegionClass::Normal; 2]), Ok(()));
-        assert_eq!(zoned.check_classes(&keen), Ok(()));
-        let refused = Err(ClassMapError::NoZones { region: 1, class: RegionClass::Keen });
-        assert_eq!(plain.check_classes(&keen), refused);
-        for camera in [plain, zoned] {
-            let refused = Err(ClassMapError::Count { given: 1, regions: 2 });
-            assert_eq!(camera.check_classes(&keen[..1]), refused);
         }
     }
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Validation: checks every range and combination of a configuration, and makes a camera of it.
 
-use crate::depth::{self, DEFAULT_BITS};
-use crate::ranges::largest_level;
+use crate::base_classes::BaseClasses;
+use crate::class_areas::check_areas;
+use crate::temporal_thresholds::check_temporal_thresholds;
 use crate::{
     Camera, CameraConfig, ConfigError, Decimal, FeatureKind, Periphery, ReferencePolicy,
     SpatialConfig, SpatialFeature, TemporalParameters, VoteCombination, Zones,
@@ -59,9 +60,17 @@ impl CameraConfig {
             min_count: self.temporal.min_count,
             reference: self.temporal.reference,
         };
-        let zones = config.zones.as_ref();
-        let zones = zones.map(|zones| Zones::resolve(&config, zones, temporal, periphery));
-        let zones = zones.transpose()?;
+        let zones = match &self.zones {
+            None => None,
+            Some(table) => {
+                check_areas(self, &table.areas, (width, height))?;
+                let base = BaseClasses::resolve(self, table, (width, height))?;
+                let zones = Zones::resolve(&config, table, &base, periphery)?;
+                config.zones =
+                    Some(zones.completed_table(table, width.div_ceil(config.region.size)));
+                Some(zones)
+            }
+        };
         Ok(Camera::new(config, (width, height), features, temporal, (periphery, zones)))
     }
 
@@ -97,6 +106,16 @@ impl CameraConfig {
             *own = Some(given);
         }
         Ok(())
+    }
+
+    /// Sets another frame size. The classes and areas of zones are left out, because they belong to a
+    /// frame of the old size; all regions are then normal.
+    pub fn resize_frame(&mut self, width: u32, height: u32) {
+        (self.frame.width, self.frame.height) = (Some(width), Some(height));
+        if let Some(zones) = &mut self.zones {
+            zones.classes.clear();
+            zones.areas.clear();
+        }
     }
 
     /// Refuses a frame with too many regions.
@@ -193,26 +212,6 @@ impl CameraConfig {
             (ReferencePolicy::LastSent, VoteCombination::All) => true,
         }
     }
-}
-
-/// Checks the thresholds of a temporal score, whose keys are in the table `table`. Some pixel must be
-/// able to exceed the level, unless the minimum count is 0.
-pub(crate) fn check_temporal_thresholds(
-    config: &CameraConfig,
-    table: &str,
-    level: u32,
-    min_count: u32,
-) -> Result<(), ConfigError> {
-    let bits = config.frame.pixel_bits;
-    let pixel_max = (1 << bits) - 1;
-    let largest = largest_level(pixel_max, min_count == 0);
-    let scaled = depth::scale_level(level, DEFAULT_BITS, bits);
-    let hint = depth::depth_hint(&level, &scaled, scaled <= largest, bits);
-    let why = format!(" for pixels of {bits} bits, which differ by at most {pixel_max}{hint}");
-    check_range(&format!("{table}.level"), level, 0..=largest, &why)?;
-    let n = config.region.size * config.region.size;
-    let region = format!(" for regions of {n} pixels");
-    check_range(&format!("{table}.min_count"), min_count, 0..=n, &region)
 }
 
 #[cfg(test)]

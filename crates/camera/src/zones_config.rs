@@ -1,21 +1,50 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The thresholds of zones in a configuration: those of `keen` regions, and the level of `off`
-//! regions.
+//! The table `[zones]` of a configuration: areas with classes, the thresholds of `keen` regions, and
+//! the level of `off` regions.
 
 use crate::depth;
-use crate::{Decimal, FeatureKind};
+use crate::{Decimal, FeatureKind, RegionClass};
 use serde::{Deserialize, Serialize};
 
-/// The thresholds of a camera with zones. A threshold that is left out is that of the camera.
+/// The table `[zones]`. A threshold that is left out is that of the camera.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ZonesConfig {
+    /// The path of an image with the class of each region or pixel. A reader of files replaces it by
+    /// `classes`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub map: Option<String>,
+    /// The codes of classes, a string of digits for each row: one digit for each region, or one for
+    /// each pixel of the frame.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub classes: Vec<String>,
+    /// The areas whose regions have a class, in pixels of the frame. They overrule `classes`. All
+    /// other regions are normal.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub areas: Vec<AreaConfig>,
     /// The level of the summaries of `off` regions in grey levels, 0..2^P-1, in place of
     /// `periphery.level`. It is valid only with `render.irrelevant = "mean"`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub off_level: Option<u32>,
     /// The thresholds of `keen` regions.
+    #[serde(skip_serializing_if = "KeenConfig::is_empty")]
     pub keen: KeenConfig,
+}
+
+/// An entry of `[[zones.areas]]`: the class of the pixels of a rectangle or a polygon. An area
+/// overrules the areas before it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct AreaConfig {
+    /// The class of the pixels.
+    pub class: RegionClass,
+    /// Left, top, width and height in pixels.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rectangle: Option<[u32; 4]>,
+    /// The corners in pixels from the left and from the top. A pixel belongs to the polygon if an
+    /// odd number of its sides lies on the right of the center of the pixel.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub polygon: Option<Vec<[u32; 2]>>,
 }
 
 /// The thresholds of `keen` regions. They have the ranges of the keys of the camera that they
@@ -27,8 +56,10 @@ pub struct KeenConfig {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub spatial: Vec<KeenSpatialConfig>,
     /// The thresholds of the temporal score.
+    #[serde(skip_serializing_if = "KeenTemporalConfig::is_empty")]
     pub temporal: KeenTemporalConfig,
     /// The level of summaries. It is valid only with `render.irrelevant = "mean"`.
+    #[serde(skip_serializing_if = "KeenPeripheryConfig::is_empty")]
     pub periphery: KeenPeripheryConfig,
 }
 
@@ -67,6 +98,27 @@ pub struct KeenPeripheryConfig {
     pub level: Option<u32>,
 }
 
+impl KeenConfig {
+    /// Returns true if no key of the table is written.
+    fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+impl KeenTemporalConfig {
+    /// Returns true if no key of the table is written.
+    fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+impl KeenPeripheryConfig {
+    /// Returns true if no key of the table is written.
+    fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
 impl ZonesConfig {
     /// Returns the thresholds that are written, scaled from `from` bits to `to` bits per pixel.
     pub(crate) fn scaled_to_depth(&self, from: u32, to: u32) -> Self {
@@ -81,6 +133,9 @@ impl ZonesConfig {
         };
         let KeenConfig { spatial: entries, temporal, periphery } = &self.keen;
         Self {
+            map: self.map.clone(),
+            classes: self.classes.clone(),
+            areas: self.areas.clone(),
             off_level: self.off_level.map(level),
             keen: KeenConfig {
                 spatial: entries.iter().map(spatial).collect(),

@@ -26,13 +26,14 @@ mod threads;
 mod view;
 mod vision;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::builder::RangedI64ValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use clap_complete::Shell;
 use foveate_design::{ConfigError, Design, DesignConfig, Preset};
 use foveate_estimate::{ROUTE_DEVICES, RouteDevice};
+use foveate_footage::read_class_map;
 
 use self::input::InputArgs;
 use self::threads::ThreadArgs;
@@ -111,8 +112,18 @@ impl DesignArgs {
     /// from the defaults.
     pub(crate) fn config(&self) -> Result<DesignConfig, CliError> {
         let text = self.text()?;
-        DesignConfig::from_toml_with(&text, &self.overrides)
-            .map_err(|error| self.config_error(&text, error))
+        let mut config = DesignConfig::from_toml_with(&text, &self.overrides)
+            .map_err(|error| self.config_error(&text, error))?;
+        read_class_map(&mut config.camera, &self.map_folder())?;
+        Ok(config)
+    }
+
+    /// Returns the folder of a relative path in `zones.map`: that of the file, or the working folder
+    /// for a path in `--set`.
+    fn map_folder(&self) -> PathBuf {
+        let is_overridden = self.overrides.iter().any(|one| one.trim_start().starts_with("zones"));
+        let file = self.config.as_deref().filter(|_| !is_overridden);
+        file.and_then(Path::parent).unwrap_or(Path::new("")).to_owned()
     }
 
     /// Returns the validated design.

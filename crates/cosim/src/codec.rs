@@ -56,6 +56,7 @@ impl RecordCodec {
             place.expect("a port is of a feature of the design")
         };
         let thresholds = input.thresholds;
+        let keen = input.zones.map_or(thresholds, |zones| zones.keen);
         let value = match role {
             PortRole::Reset => input.reset.into(),
             PortRole::Valid => input.valid.into(),
@@ -68,12 +69,31 @@ impl RecordCodec {
             PortRole::TemporalLevel => thresholds.temporal_level.into(),
             PortRole::TemporalMinCount => thresholds.temporal_min_count.into(),
             PortRole::SummaryLevel => thresholds.summary_level.into(),
+            PortRole::KeenLevel(kind) => keen.level[place(kind)].into(),
+            PortRole::KeenMinScore(kind) => keen.min_score[place(kind)],
+            PortRole::KeenTemporalLevel => keen.temporal_level.into(),
+            PortRole::KeenTemporalMinCount => keen.temporal_min_count.into(),
+            PortRole::KeenSummaryLevel => keen.summary_level.into(),
+            PortRole::OffSummaryLevel => {
+                input.zones.map_or(thresholds.summary_level, |zones| zones.off_summary_level).into()
+            }
+            PortRole::RegionClass => return self.push_classes(input),
             PortRole::Pixel => return self.push_pixels(input.pixels),
             PortRole::ReferencePixel => return self.push_pixels(input.reference_pixels),
             // The role is an output, or the clock, which is in no record.
             _ => return,
         };
         self.values.push(value);
+    }
+
+    /// Appends the codes of the classes of all lanes. There are as many lanes as pixels.
+    fn push_classes(&mut self, input: &CoreInput<'_>) {
+        match input.zones {
+            Some(zones) => {
+                self.values.extend(zones.classes.iter().map(|class| u64::from(class.code())));
+            }
+            None => self.values.extend(input.pixels.iter().map(|_| 0)),
+        }
     }
 
     fn push_pixels(&mut self, pixels: &[u16]) {

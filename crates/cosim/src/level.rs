@@ -114,8 +114,10 @@ fn with_grid(design: &Design, columns: u32, rows: u32) -> Result<Design, ConfigE
     let side = design.region_size();
     let length =
         |regions: u32, own: u32, all: u32| regions.saturating_mul(side) - (all * side - own);
-    config.camera.frame.width = Some(length(columns, design.width(), design.columns()));
-    config.camera.frame.height = Some(length(rows, design.height(), design.rows()));
+    config.camera.resize_frame(
+        length(columns, design.width(), design.columns()),
+        length(rows, design.height(), design.rows()),
+    );
     config.validate()
 }
 

@@ -24,6 +24,7 @@ mod raster;
 mod rules;
 mod serial;
 mod support;
+mod thresholds;
 mod timing;
 mod validation;
 
@@ -55,4 +56,5 @@ pub use serial::{
     BlockMeanDivision, FlowSearch, LaneMemory, LaneWidths, MemoryChoice, SerialHardware,
     SerialPhase, SerialTiming, SlotArea, SlotAreaKind,
 };
+pub use thresholds::{DesignThreshold, keen_role};
 pub use timing::{DepartureTiming, DesignTiming};

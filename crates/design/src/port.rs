@@ -2,7 +2,7 @@
 //! The ports of an RPU or an RCM. The [`crate::CoreInterface`] of each organization is made of
 //! them.
 
-use crate::{Design, FeatureKind, ThresholdSource};
+use crate::{Design, FeatureKind};
 
 /// The direction of a port, seen from the core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +39,20 @@ pub enum PortRole {
     TemporalMinCount,
     /// A summary is sent again when a mean differs by more than this (designs with a periphery).
     SummaryLevel,
+    /// Per-pixel threshold of a feature in keen regions (designs with zones; so are the next five).
+    KeenLevel(FeatureKind),
+    /// Per-region threshold of a feature in keen regions.
+    KeenMinScore(FeatureKind),
+    /// Per-pixel threshold of the temporal score in keen regions.
+    KeenTemporalLevel,
+    /// Per-region threshold of the temporal score in keen regions.
+    KeenTemporalMinCount,
+    /// The level of the summaries of keen regions.
+    KeenSummaryLevel,
+    /// The level of the summaries of regions that are off.
+    OffSummaryLevel,
+    /// The codes of the classes of regions, one per lane (designs with zones).
+    RegionClass,
     /// The port `ReferencePixel` holds a reference (`raster`, external store).
     ReferenceValid,
     /// The reference of the next word (`raster`, external store).
@@ -135,6 +149,13 @@ impl PortRole {
             | Self::TemporalLevel
             | Self::TemporalMinCount
             | Self::SummaryLevel
+            | Self::KeenLevel(_)
+            | Self::KeenMinScore(_)
+            | Self::KeenTemporalLevel
+            | Self::KeenTemporalMinCount
+            | Self::KeenSummaryLevel
+            | Self::OffSummaryLevel
+            | Self::RegionClass
             | Self::ReferencePixel
             | Self::StorePixel
             | Self::ScoreIndex
@@ -271,32 +292,11 @@ pub(crate) fn decision_ports(design: &Design, whose: &str) -> Vec<Port> {
     list
 }
 
-/// Returns the threshold inputs, which are the same for every organization. The list is empty if
-/// thresholds are constants.
-pub(crate) fn threshold_ports(design: &Design) -> Vec<Port> {
-    let mut list = Vec::new();
-    match design.threshold_source() {
-        ThresholdSource::Constant => return list,
-        ThresholdSource::Runtime => {}
-    }
-    let mut add =
-        |role, width, doc| list.push(Port::scalar(PortDirection::Input, role, width, doc));
-    for feature in design.features() {
-        let kind = feature.kind();
-        if feature.level().is_some() {
-            add(PortRole::Level(kind), feature.level_bits(), "a pixel is a hit above this");
-        }
-        let doc = "the feature votes from this score on";
-        add(PortRole::MinScore(kind), feature.score_bits(), doc);
-    }
-    let doc = "a pixel has changed above this difference";
-    add(PortRole::TemporalLevel, design.pixel_bits(), doc);
-    add(PortRole::TemporalMinCount, design.count_bits(), "TRS from this count on");
-    if design.periphery().is_some() {
-        let doc = "a mean that differs by more is sent again";
-        add(PortRole::SummaryLevel, design.pixel_bits(), doc);
-    }
-    list
+/// Returns the input with the class of a region, or `None` for a design without zones.
+pub(crate) fn class_input(design: &Design) -> Option<Port> {
+    let doc = "class of the region: 0 normal, 1 off, 2 keen, 3 always";
+    let port = || Port::scalar(PortDirection::Input, PortRole::RegionClass, 2, doc);
+    design.zones().map(|_| port())
 }
 
 fn port_name(role: PortRole) -> String {
@@ -312,6 +312,13 @@ fn port_name(role: PortRole) -> String {
         PortRole::TemporalLevel => "temporal_level_i".to_owned(),
         PortRole::TemporalMinCount => "temporal_min_i".to_owned(),
         PortRole::SummaryLevel => "summary_level_i".to_owned(),
+        PortRole::KeenLevel(kind) => format!("keen_{kind}_level_i"),
+        PortRole::KeenMinScore(kind) => format!("keen_{kind}_min_i"),
+        PortRole::KeenTemporalLevel => "keen_temporal_level_i".to_owned(),
+        PortRole::KeenTemporalMinCount => "keen_temporal_min_i".to_owned(),
+        PortRole::KeenSummaryLevel => "keen_summary_level_i".to_owned(),
+        PortRole::OffSummaryLevel => "off_summary_level_i".to_owned(),
+        PortRole::RegionClass => "zone_i".to_owned(),
         PortRole::ReferenceValid => "reference_valid_i".to_owned(),
         PortRole::ReferencePixel => "reference_pixel_i".to_owned(),
         PortRole::ForwardReady => "forward_ready_i".to_owned(),

@@ -27,8 +27,9 @@ pub(crate) fn check_support(hardware: &HardwareConfig, camera: &Camera) -> Resul
     refuse_unless(organization, "temporal.reference", quoted(reference.name()), |one| {
         supports_reference(one, reference)
     })?;
-    if camera.zones().is_some() {
-        refuse_unless(organization, "zones", "{...}".to_owned(), supports_zones)?;
+    if camera.zones().is_some() && !supports_zones(organization) {
+        let remedy = format!("leave the table [zones] out, or use organization = \"{Pipelined}\"");
+        return Err(organization.combination_error("zones", "{...}".to_owned(), &remedy));
     }
     let irrelevant = camera.irrelevant();
     refuse_unless(organization, "render.irrelevant", quoted(irrelevant.name()), |one| {
@@ -91,7 +92,8 @@ fn supports_rendering(organization: Organization, irrelevant: IrrelevantRenderin
 /// Returns true if the organization can have a class for every region.
 fn supports_zones(organization: Organization) -> bool {
     match organization {
-        Pipelined | Serial | Raster => false,
+        Pipelined => true,
+        Serial | Raster => false,
     }
 }
 
@@ -123,10 +125,7 @@ fn refuse_unless(
     }
     let others = Organization::ALL.iter().filter(|&&other| supports(other));
     let others: Vec<_> = others.map(|other| format!("\"{other}\"")).collect();
-    let remedy = match others.is_empty() {
-        true => "no organization supports it; leave it out".to_owned(),
-        false => format!("use another value, or organization = {}", others.join(" or ")),
-    };
+    let remedy = format!("use another value, or organization = {}", others.join(" or "));
     Err(organization.combination_error(key, value, &remedy))
 }
 

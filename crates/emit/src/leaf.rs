@@ -74,6 +74,7 @@ pub const LEAVES: &[Leaf] = leaves! {
     "change_detector" => ["magnitude_above"],
     "hit_counter" => [],
     "candidate_count" => [],
+    "region_class" => [],
     "region_sum" => [],
     "region_mean" => [],
     "deviation_sum" => [],
@@ -206,6 +207,7 @@ pub(crate) fn pipelined_leaves(design: &Design) -> Vec<&'static str> {
         }
     }
     need(!window, &["position_counter"]);
+    need(design.zones().is_some(), &["region_class"]);
     need(design.periphery().is_some(), &["region_summary"]);
     for feature in design.features() {
         match feature.kind() {

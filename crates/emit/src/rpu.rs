@@ -13,8 +13,9 @@ use crate::verilog_text::{PortLine, rendered_text};
 use crate::{banner, latency_text};
 use askama::Template;
 use foveate_design::{
-    DenoiseFilter, FeatureKind, MeanDivision, Neighborhood, Periphery, PipelinedDesign,
+    DenoiseFilter, Design, FeatureKind, MeanDivision, Neighborhood, Periphery, PipelinedDesign,
     PipelinedTiming, Pipelining, PortRole, SpatialFeature, VoteCombination, bits_for, index_bits,
+    keen_role,
 };
 
 #[derive(Template)]
@@ -46,6 +47,7 @@ struct RpuModule {
     keeps_second: bool,
     tail_delay: bool,
     deep: bool,
+    zones: bool,
     filter_registers: u32,
     /// The prefix of the signals that are counted: `tail`, or `count` where they come a clock after
     /// the store.
@@ -189,6 +191,7 @@ fn view(design: PipelinedDesign<'_>) -> RpuModule {
         keeps_second: keeps_second_frame(design),
         tail_delay: has_tail_registers(&timing, deep),
         deep,
+        zones: design.zones().is_some(),
         filter_registers: timing.filter_registers,
         count: if deep { "count" } else { "tail" },
         second_pass,
@@ -205,7 +208,11 @@ fn view(design: PipelinedDesign<'_>) -> RpuModule {
         surface_bits,
         compared: compared_values(reference, second_pass, deep),
         references: reference_candidates(reference, second_pass, deep),
-        temporal_level: threshold_signal(&design, PortRole::TemporalLevel),
+        temporal_level: class_threshold(
+            &design,
+            PortRole::TemporalLevel,
+            if deep { "count_keen" } else { "tail_keen" },
+        ),
         scores: score_ports(design),
         votes: features.iter().map(|f| format!("{}_score", f.kind())).collect(),
         all: u32::from(design.combine() == VoteCombination::All),
@@ -278,8 +285,35 @@ fn window_feature(design: PipelinedDesign<'_>, feature: &SpatialFeature) -> Wind
         bits if bits == design.pixel_bits() => String::new(),
         bits => format!(", .LEVEL_BITS({bits})"),
     };
-    let level = threshold_signal(&design, PortRole::Level(kind));
+    let level = class_threshold(&design, PortRole::Level(kind), "front_keen");
     WindowFeature { name: kind.name(), level, parameters }
+}
+
+/// Returns the threshold of the class of a region. `keen` is the signal that says that the region is
+/// keen; a design without zones has no such signal.
+fn class_threshold(design: &Design, role: PortRole, keen: &str) -> String {
+    let own = threshold_signal(design, role);
+    match design.zones() {
+        None => own,
+        Some(_) => format!("{keen} ? {} : {own}", threshold_signal(design, keen_role(role))),
+    }
+}
+
+/// Returns a threshold in the clock of the decision.
+fn decided_threshold(design: &Design, role: PortRole) -> String {
+    class_threshold(design, role, "decided_keen")
+}
+
+/// Returns the level of summaries in the clock of the decision.
+fn summary_level(design: &Design) -> String {
+    let level = decided_threshold(design, PortRole::SummaryLevel);
+    match design.zones() {
+        None => level,
+        Some(_) => {
+            let off = threshold_signal(design, PortRole::OffSummaryLevel);
+            format!("decided_class == 2'd1 ? {off} : {level}")
+        }
+    }
 }
 
 fn mean_parameters(mean: &MeanDivision) -> MeanParameters {
@@ -295,7 +329,7 @@ fn mean_parameters(mean: &MeanDivision) -> MeanParameters {
 
 fn segment_parameters(design: PipelinedDesign<'_>, feature: &SpatialFeature) -> SegmentParameters {
     SegmentParameters {
-        level: threshold_signal(&design, PortRole::Level(feature.kind())),
+        level: class_threshold(&design, PortRole::Level(feature.kind()), "done_keen"),
         score_bits: feature.score_bits(),
     }
 }
@@ -319,7 +353,7 @@ fn summary_parameters(design: PipelinedDesign<'_>, periphery: &Periphery) -> Sum
         factor: periphery.reciprocal.multiplier(),
         factor_bits: bits_for(periphery.reciprocal.multiplier()),
         shift: periphery.reciprocal.shift(),
-        level: threshold_signal(&design, PortRole::SummaryLevel),
+        level: summary_level(&design),
         pixel: if design.has_separate_raw_pixels() { "tail_raw" } else { "tail_pixel" },
     }
 }
@@ -332,14 +366,14 @@ fn score_ports(design: PipelinedDesign<'_>) -> Vec<ScorePort> {
         .map(|feature| ScorePort {
             name: format!("{}_score", feature.kind()),
             width: feature.score_bits(),
-            minimum: threshold_signal(&design, PortRole::MinScore(feature.kind())),
+            minimum: decided_threshold(&design, PortRole::MinScore(feature.kind())),
             is_held: second_pass && !feature.kind().has_second_pass(),
         })
         .collect();
     list.push(ScorePort {
         name: "temporal_count".to_owned(),
         width: design.count_bits(),
-        minimum: threshold_signal(&design, PortRole::TemporalMinCount),
+        minimum: decided_threshold(&design, PortRole::TemporalMinCount),
         is_held: second_pass,
     });
     list

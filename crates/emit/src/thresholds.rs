@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Thresholds as inputs or constants, and the scores as words, for all organizations.
 
-use foveate_design::{Design, FeatureKind, Port, PortRole, ThresholdSource};
+use foveate_design::{Design, DesignThreshold, FeatureKind, Port, PortRole, ThresholdSource};
 
 /// A threshold that is a constant in the Verilog.
 pub(crate) struct ThresholdConstant {
@@ -55,43 +55,33 @@ fn constant_name(role: PortRole) -> String {
         PortRole::TemporalLevel => "TEMPORAL_LEVEL".to_owned(),
         PortRole::TemporalMinCount => "TEMPORAL_MIN".to_owned(),
         PortRole::SummaryLevel => "SUMMARY_LEVEL".to_owned(),
+        PortRole::KeenLevel(kind) => format!("KEEN_{}_LEVEL", upper(kind)),
+        PortRole::KeenMinScore(kind) => format!("KEEN_{}_MIN", upper(kind)),
+        PortRole::KeenTemporalLevel => "KEEN_TEMPORAL_LEVEL".to_owned(),
+        PortRole::KeenTemporalMinCount => "KEEN_TEMPORAL_MIN".to_owned(),
+        PortRole::KeenSummaryLevel => "KEEN_SUMMARY_LEVEL".to_owned(),
+        PortRole::OffSummaryLevel => "OFF_SUMMARY_LEVEL".to_owned(),
         _ => unreachable!("{role:?} is no threshold"),
     }
 }
 
 /// Returns the constants of the thresholds; none if thresholds are inputs.
 pub(crate) fn threshold_constants(design: &Design) -> Vec<ThresholdConstant> {
-    if design.threshold_source() == ThresholdSource::Runtime {
-        return Vec::new();
-    }
-    let mut list = Vec::new();
-    let mut add = |role, width, value| {
-        list.push(ThresholdConstant { name: constant_name(role), width, value });
-    };
-    for feature in design.features() {
-        if let Some(level) = feature.level() {
-            add(PortRole::Level(feature.kind()), feature.level_bits(), level.into());
+    match design.threshold_source() {
+        ThresholdSource::Runtime => Vec::new(),
+        ThresholdSource::Constant => {
+            let constant = |DesignThreshold { role, width, value, .. }| ThresholdConstant {
+                name: constant_name(role),
+                width,
+                value,
+            };
+            design.thresholds().into_iter().map(constant).collect()
         }
-        add(PortRole::MinScore(feature.kind()), feature.score_bits(), feature.min_score());
     }
-    let temporal = design.temporal();
-    add(PortRole::TemporalLevel, design.pixel_bits(), temporal.level.into());
-    add(PortRole::TemporalMinCount, design.count_bits(), temporal.min_count.into());
-    if let Some(periphery) = design.periphery() {
-        add(PortRole::SummaryLevel, design.pixel_bits(), periphery.level.into());
-    }
-    list
 }
 
 /// Returns the configured value of a threshold input; `None` for other ports.
 pub(crate) fn threshold_value(design: &Design, port: &Port) -> Option<u64> {
-    let feature = |kind| design.feature(kind);
-    match port.role {
-        PortRole::Level(kind) => Some(feature(kind)?.level()?.into()),
-        PortRole::MinScore(kind) => Some(feature(kind)?.min_score()),
-        PortRole::TemporalLevel => Some(design.temporal().level.into()),
-        PortRole::TemporalMinCount => Some(design.temporal().min_count.into()),
-        PortRole::SummaryLevel => Some(design.periphery()?.level.into()),
-        _ => None,
-    }
+    let thresholds = design.thresholds();
+    thresholds.iter().find(|threshold| threshold.role == port.role).map(|one| one.value)
 }

@@ -5,18 +5,20 @@ use std::ops::Range;
 
 use foveate_camera::{ReferencePolicy, RegionClass};
 
+use crate::block_levels::{BlockLevels, UniformLevel};
 use crate::denoised::Denoiser;
+use crate::feature_passes::FeaturePasses;
 use crate::kernel::flow::DisplacedErrors;
 use crate::kernel::segment::SegmentPlan;
 use crate::kernel::{
     SharedSides, WindowRows, WindowSides, corner, edge, flow, mad, range, segment, sums, surface,
     temporal,
 };
+use crate::lane_levels::LaneLevels;
 use crate::periphery::PeripheryPlan;
 use crate::pixels::BorrowedFrame;
-use crate::plan::{CameraPlan, FeaturePasses};
+use crate::plan::CameraPlan;
 use crate::working_memory::{ColumnSums, RegionSums, WorkingMemory};
-use crate::zones::{BlockLevels, LaneLevels, UniformLevel};
 use foveate_lanes::{BLOCK_LANES, Block, PixelLane, saturated_threshold};
 
 /// Returns the blocks of a run in row `y` of a padded plane.

@@ -11,7 +11,7 @@ use crate::kernel::mad;
 use crate::outcome::RegionResults;
 use crate::plan::CameraPlan;
 use crate::working_memory::RegionSums;
-use crate::zones::ZonePlan;
+use crate::zone_plan::ZonePlan;
 use foveate_lanes::PixelLane;
 
 impl<T: PixelLane> CameraPlan<T> {

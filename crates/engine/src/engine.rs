@@ -37,6 +37,16 @@ pub(crate) enum LaneCore {
     Words(LaneEngine<u16>),
 }
 
+impl LaneCore {
+    /// Sets the classes of all regions, which have been checked.
+    fn set_classes(&mut self, classes: &[RegionClass]) {
+        match self {
+            Self::Bytes(core) => core.set_classes(classes),
+            Self::Words(core) => core.set_classes(classes),
+        }
+    }
+}
+
 /// An RCM with its renderer. It computes what the model's `FunctionalCamera` computes.
 #[derive(Debug)]
 pub struct Engine {
@@ -83,7 +93,7 @@ impl Engine {
     }
 
     fn build(camera: &Camera, options: EngineOptions, workers: Workers) -> Self {
-        let lanes = if camera.pixel_bits() <= 8 {
+        let mut lanes = if camera.pixel_bits() <= 8 {
             LaneCore::Bytes(LaneEngine::new(
                 CameraPlan::new(camera),
                 options.skips_identical_regions,
@@ -95,6 +105,7 @@ impl Engine {
             ))
         };
         let outcome = FrameOutcome::new(camera, index(camera.regions()));
+        lanes.set_classes(&camera.configured_classes());
         Self {
             camera: camera.clone(),
             workers,
@@ -117,18 +128,25 @@ impl Engine {
         self.workers.level
     }
 
-    /// Sets the class of every region, numbered row by row, from the next frame on. The regions of a
-    /// new engine are [`RegionClass::Normal`].
+    /// Sets the class of every region, numbered row by row, from the next frame on. A new
+    /// engine has the classes of the configuration.
     ///
     /// # Errors
     /// Returns the errors of [`Camera::check_classes`]. The classes are then unchanged.
     pub fn set_classes(&mut self, classes: &[RegionClass]) -> Result<(), EngineError> {
         self.camera.check_classes(classes)?;
-        match &mut self.lanes {
-            LaneCore::Bytes(core) => core.set_classes(classes),
-            LaneCore::Words(core) => core.set_classes(classes),
-        }
+        self.lanes.set_classes(classes);
         Ok(())
+    }
+
+    /// Returns the class of every region in the next frame, or an empty slice for a camera without
+    /// zones.
+    #[must_use]
+    pub fn classes(&self) -> &[RegionClass] {
+        match &self.lanes {
+            LaneCore::Bytes(core) => core.classes(),
+            LaneCore::Words(core) => core.classes(),
+        }
     }
 
     /// Returns the engine to its reset state, with a black screen and without references. The classes

@@ -133,6 +133,11 @@ impl<T: PixelLane> LaneEngine<T> {
         }
     }
 
+    /// Returns the classes of the regions; empty if the camera has no zones.
+    pub(crate) fn classes(&self) -> &[RegionClass] {
+        &self.classes
+    }
+
     /// Sets the class of every region of a camera with zones. The next frame computes the regions
     /// whose class is another one than before, even if their pixels are the same.
     pub(crate) fn set_classes(&mut self, classes: &[RegionClass]) {

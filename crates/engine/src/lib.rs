@@ -13,6 +13,7 @@
 
 mod band;
 mod batch;
+mod block_levels;
 mod change;
 mod change_search;
 mod decision;
@@ -21,8 +22,10 @@ mod digest;
 mod engine;
 mod error;
 mod events;
+mod feature_passes;
 mod kernel;
 mod lane_engine;
+mod lane_levels;
 mod outcome;
 mod periphery;
 mod pixels;
@@ -37,7 +40,7 @@ mod state_copy;
 mod strip;
 mod workers;
 mod working_memory;
-mod zones;
+mod zone_plan;
 
 pub use engine::{Engine, EngineOptions};
 pub use error::EngineError;

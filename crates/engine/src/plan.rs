@@ -4,13 +4,13 @@
 use std::ops::Range;
 
 use foveate_camera::{
-    Camera, DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood, Payload, Periphery,
-    ReferencePolicy, SpatialFeature, VoteCombination,
+    Camera, DenoiseFilter, IrrelevantRendering, Neighborhood, Payload, Periphery, ReferencePolicy,
+    SpatialFeature, VoteCombination,
 };
 
-use crate::kernel::segment::SegmentPlan;
+use crate::feature_passes::{FeaturePasses, FeaturePlan, feature_plans};
 use crate::periphery::PeripheryPlan;
-use crate::zones::ZonePlan;
+use crate::zone_plan::ZonePlan;
 use foveate_lanes::AlignedBuffer;
 use foveate_lanes::{BLOCK_LANES, PixelLane, saturated_threshold};
 
@@ -49,35 +49,6 @@ pub(crate) struct CameraPlan<T: PixelLane> {
     pub(crate) keeps_raw: bool,
     pub(crate) periphery: Option<PeripheryPlan<T>>,
     pub(crate) zones: Option<ZonePlan<T>>,
-}
-
-/// The passes over the pixels of a band that the features need.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct FeaturePasses<T: PixelLane> {
-    /// Half of the level of `edge`.
-    pub(crate) edge: Option<T::Signed>,
-    /// The level of `corner`.
-    pub(crate) corner: Option<T>,
-    /// True if a feature uses windows.
-    pub(crate) has_windows: bool,
-    /// True if a feature needs the sum of the pixels.
-    pub(crate) needs_sums: bool,
-    /// True if a feature needs the sum of the squares of the pixels.
-    pub(crate) needs_squares: bool,
-    /// True if a feature needs the smallest and the largest pixel.
-    pub(crate) needs_extremes: bool,
-    /// True if a feature needs the sums of differences of neighbors.
-    pub(crate) needs_differences: bool,
-    /// The fraction bits of the mean of `mad`.
-    pub(crate) mad: Option<u32>,
-    pub(crate) segment: Option<SegmentPlan>,
-}
-
-/// A feature of the camera and its threshold.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct FeaturePlan {
-    pub(crate) kind: FeatureKind,
-    pub(crate) min_score: u64,
 }
 
 /// Two masks in which every bit is set in the first and in the last column of each region.
@@ -220,15 +191,6 @@ impl<T: PixelLane> CameraPlan<T> {
     }
 }
 
-/// Returns the features with their minimum scores.
-pub(crate) fn feature_plans(features: &[SpatialFeature]) -> Vec<FeaturePlan> {
-    let plan = |feature: &SpatialFeature| FeaturePlan {
-        kind: feature.kind(),
-        min_score: feature.min_score(),
-    };
-    features.iter().map(plan).collect()
-}
-
 fn periphery_plan<T: PixelLane>(periphery: &Periphery) -> PeripheryPlan<T> {
     PeripheryPlan {
         blocks: index(periphery.blocks),
@@ -236,47 +198,6 @@ fn periphery_plan<T: PixelLane>(periphery: &Periphery) -> PeripheryPlan<T> {
         level: saturated_threshold(periphery.level),
         pixels: periphery.block_pixels(),
         shift: periphery.block_pixels().is_power_of_two().then(|| periphery.block_pixels().ilog2()),
-    }
-}
-
-impl<T: PixelLane> FeaturePasses<T> {
-    /// Returns the passes that the features need, with the levels of the features.
-    pub(crate) fn from_features(features: &[SpatialFeature]) -> Self {
-        let mut passes = Self {
-            edge: None,
-            corner: None,
-            has_windows: features.iter().any(|feature| feature.kind().has_window()),
-            needs_sums: false,
-            needs_squares: false,
-            needs_extremes: false,
-            needs_differences: false,
-            mad: None,
-            segment: None,
-        };
-        for feature in features {
-            let level = || feature.level().expect("a feature that counts pixels has a level");
-            let fraction_bits =
-                || feature.mean().expect("mad and segment have a mean").fraction_bits;
-            match feature.kind() {
-                FeatureKind::Edge => passes.edge = Some(half_level(level())),
-                FeatureKind::Corner => passes.corner = Some(saturated_threshold(level())),
-                FeatureKind::Mad => {
-                    passes.needs_sums = true;
-                    passes.mad = Some(fraction_bits());
-                }
-                FeatureKind::Variance => (passes.needs_sums, passes.needs_squares) = (true, true),
-                FeatureKind::Range => passes.needs_extremes = true,
-                FeatureKind::Surface => passes.needs_differences = true,
-                FeatureKind::Segment => {
-                    passes.needs_sums = true;
-                    let plan = SegmentPlan { fraction_bits: fraction_bits(), level: level() };
-                    passes.segment = Some(plan);
-                }
-                // The search has a plan of its own.
-                FeatureKind::Flow => {}
-            }
-        }
-        passes
     }
 }
 
@@ -291,14 +212,6 @@ impl<T: PixelLane> SeamMasks<T> {
         };
         Self { first: mask(0), last: mask(side - 1) }
     }
-}
-
-/// Converts an edge level to half of it, rounded down, at most 3 * 65535.
-fn half_level<S: TryFrom<u32> + From<T>, T: PixelLane<Signed = S>>(level: u32) -> S {
-    let half = S::try_from(level / 2);
-    half.unwrap_or_else(|_| {
-        unreachable!("a level is at most that of the largest gradient, not {level}")
-    })
 }
 
 /// Converts a size, a coordinate or the number of a region to an index. The conversion is lossless:

@@ -6,8 +6,8 @@ use std::ops::Range;
 use crate::kernel::ExtendedRow;
 use crate::kernel::flow::DisplacedErrors;
 use crate::kernel::surface::DISPLACEMENTS;
+use crate::lane_levels::LaneLevels;
 use crate::plan::CameraPlan;
-use crate::zones::LaneLevels;
 use foveate_lanes::AlignedBuffer;
 use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
 

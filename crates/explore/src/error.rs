@@ -43,6 +43,9 @@ pub enum ExploreError {
     /// A network cannot be read, or cannot be run on the frames.
     #[error(transparent)]
     Inference(Box<InferenceError>),
+    /// The task of a fit has zones, whose thresholds no search changes.
+    #[error("a fit does not search the thresholds of zones; leave the table [zones] out")]
+    Zones,
     /// There are no objects, so no share of them can be sent.
     #[error(
         "the {half} half of the clips has no object to count, so --min-recall cannot be checked; \

@@ -30,6 +30,26 @@ pub enum FootageError {
         /// The path as given.
         path: PathBuf,
     },
+    /// An image that is a map of zones has a colour that is no class.
+    #[error(
+        "the map `{}`: pixel ({x}, {y}) is ({red}, {green}, {blue}), which is no class; black or 0 is normal, red \
+         (255, 0, 0) or 1 is off, green (0, 255, 0) or 2 is keen, white or 3 is always",
+        path.display()
+    )]
+    ClassColour {
+        /// The path of the image.
+        path: PathBuf,
+        /// The column of the pixel.
+        x: u32,
+        /// The row of the pixel.
+        y: u32,
+        /// The red part of the pixel, 0..=255.
+        red: u8,
+        /// The green part of the pixel, 0..=255.
+        green: u8,
+        /// The blue part of the pixel, 0..=255.
+        blue: u8,
+    },
     /// The input is a URL.
     #[error(
         "`{url}` is a URL, but inputs must be files, devices of this machine, or cameras by RTSP; download it first, or let \

@@ -9,6 +9,7 @@
 mod address;
 mod advice;
 pub mod boxes;
+mod class_map;
 mod compared_input;
 mod error;
 mod extension;
@@ -27,6 +28,7 @@ mod y4m;
 
 pub use address::{input_without_secrets, text_without_secrets};
 pub use advice::{input_warnings, skipped_in_words, skipped_inputs};
+pub use class_map::read_class_map;
 pub use compared_input::{ComparedInput, subjects};
 pub use error::FootageError;
 pub use input::{SkipReason, SkippedInput, is_camera, is_read_once, open};

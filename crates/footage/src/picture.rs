@@ -21,7 +21,7 @@ use std::path::Path;
 
 use foveate_frame::Frame;
 use image::error::{ImageError, LimitErrorKind};
-use image::{DynamicImage, ImageFormat, ImageReader, Limits};
+use image::{DynamicImage, ImageFormat, ImageReader, Limits, RgbImage};
 
 use self::damage::PictureFault;
 use crate::FootageError;
@@ -43,6 +43,23 @@ pub fn read(path: &Path, bits: u32) -> Result<Frame, FootageError> {
 /// # Errors
 /// Fails if the image is too large, truncated or damaged, or is not a supported image.
 pub fn decode(bytes: &[u8], path: &Path, bits: u32) -> Result<Frame, FootageError> {
+    let image = decode_image(bytes, path)?;
+    let (width, height) = (image.width(), image.height());
+    let (samples, depth) = luma_samples(image);
+    let pixels = samples.into_iter().map(|value| convert_depth(value, depth, bits)).collect();
+    Frame::new(width, height, bits, pixels).map_err(|error| FootageError::Damaged {
+        path: path.to_owned(),
+        problem: error.to_string(),
+    })
+}
+
+/// Reads an image file as colours of 8 bits.
+pub(crate) fn read_rgb(path: &Path) -> Result<RgbImage, FootageError> {
+    decode_image(&bytes_of(path)?, path).map(DynamicImage::into_rgb8)
+}
+
+/// Decodes the bytes of an image, and checks what the decoder ignores.
+fn decode_image(bytes: &[u8], path: &Path) -> Result<DynamicImage, FootageError> {
     let format =
         supported_format(bytes).ok_or_else(|| match unread_image_type_by_content(bytes) {
             Some(name) => FootageError::ImageType { path: path.to_owned(), name },
@@ -75,13 +92,7 @@ pub fn decode(bytes: &[u8], path: &Path, bits: u32) -> Result<Frame, FootageErro
         ImageFormat::Bmp => bmp::check(bytes).map_err(refused)?,
         _ => {}
     }
-    let (width, height) = (image.width(), image.height());
-    let (samples, depth) = luma_samples(image);
-    let pixels = samples.into_iter().map(|value| convert_depth(value, depth, bits)).collect();
-    Frame::new(width, height, bits, pixels).map_err(|error| FootageError::Damaged {
-        path: path.to_owned(),
-        problem: error.to_string(),
-    })
+    Ok(image)
 }
 
 fn bytes_of(path: &Path) -> Result<Vec<u8>, FootageError> {

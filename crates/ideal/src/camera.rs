@@ -46,7 +46,7 @@ struct ClassScores {
 }
 
 impl IdealCamera {
-    /// Creates a camera before its first frame, whose regions are all [`RegionClass::Normal`].
+    /// Creates a camera before its first frame, whose regions have the classes of the configuration.
     #[must_use]
     pub fn new(camera: &Camera) -> Self {
         let grid = RegionGrid::from_camera(camera);
@@ -58,7 +58,7 @@ impl IdealCamera {
             denoised: PaddedPlane::black(&grid),
             columns: SortedColumns::default(),
             scratch: ScoreBuffers::default(),
-            classes: vec![RegionClass::default(); grid.regions()],
+            classes: camera.configured_classes(),
             keen_scores: rules.keen.as_ref().map_or_else(ClassScores::default, |keen| {
                 ClassScores {
                     scores: vec![vec![0.0; grid.regions()]; keen.features.len()],

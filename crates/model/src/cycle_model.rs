@@ -4,7 +4,7 @@
 
 use foveate_design::PortRole;
 
-use crate::ThresholdInputs;
+use crate::{ThresholdInputs, ZoneInputs};
 
 /// The inputs of a core at one clock edge. A field whose port the core does not have is ignored.
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +27,9 @@ pub struct CoreInput<'a> {
     pub forward_ready: bool,
     /// Values of the threshold inputs.
     pub thresholds: &'a ThresholdInputs,
+    /// Values of the inputs that only a core with zones has. Without them every region is
+    /// [`foveate_design::RegionClass::Normal`].
+    pub zones: Option<ZoneInputs<'a>>,
 }
 
 impl<'a> CoreInput<'a> {
@@ -43,6 +46,7 @@ impl<'a> CoreInput<'a> {
             reference_pixels: &[],
             forward_ready: true,
             thresholds,
+            zones: None,
         }
     }
 

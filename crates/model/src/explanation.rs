@@ -8,7 +8,7 @@
 mod gather;
 mod text;
 
-use foveate_camera::{DenoiseFilter, Displacement, FeatureKind};
+use foveate_camera::{DenoiseFilter, Displacement, FeatureKind, RegionClass};
 use serde::Serialize;
 
 use crate::feature::surface::DisplacementSums;
@@ -54,6 +54,10 @@ pub struct RegionExplanation {
     pub spatial: Vec<SpatialExplanation>,
     /// The rule by which votes become SRS: `any` or `all`.
     pub combine: &'static str,
+    /// The class of the region, of a camera with zones. It decides which thresholds apply, and
+    /// whether SRS follows from the votes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub class: Option<RegionClass>,
     /// Spatial relevance, SRS.
     pub srs: bool,
     /// The temporal score.

@@ -26,6 +26,8 @@ pub struct FunctionalOutcome {
     pub srs: Vec<bool>,
     /// Temporal relevance of every region.
     pub trs: Vec<bool>,
+    /// The class of every region; [`RegionClass::Normal`] in a camera without zones.
+    pub classes: Vec<RegionClass>,
     /// SRS and TRS of every region are both 1, so its pixels are forwarded.
     pub active: Vec<bool>,
     /// Action on every region of the screen.
@@ -54,6 +56,7 @@ impl FunctionalOutcome {
         Self {
             srs: vec![false; regions],
             trs: vec![false; regions],
+            classes: vec![RegionClass::default(); regions],
             active: vec![false; regions],
             actions: vec![RegionAction::Hold; regions],
             temporal_count: vec![0; regions],
@@ -103,14 +106,14 @@ pub struct FunctionalCamera {
 }
 
 impl FunctionalCamera {
-    /// Makes a camera in the state after a reset, whose regions are all [`RegionClass::Normal`].
+    /// Makes a camera in the state after a reset, whose regions have the classes of the configuration.
     #[must_use]
     pub fn new(camera: &Camera) -> Self {
         Self {
             references: RegionReferences::without_references(camera),
             summaries: no_summaries(camera),
             screen: Screen::black(camera),
-            classes: vec![RegionClass::default(); index(camera.regions())],
+            classes: camera.configured_classes(),
             outcome: FunctionalOutcome::new(camera),
             camera: camera.clone(),
         }
@@ -245,6 +248,7 @@ impl FunctionalCamera {
         let trs = count >= min_count;
         outcome.srs[at] = srs;
         outcome.trs[at] = trs;
+        outcome.classes[at] = class;
         outcome.active[at] = srs && trs;
         outcome.temporal_count[at] = count;
     }

@@ -54,5 +54,5 @@ pub use scorer::RegionScorer;
 pub use serial::{SerialOutput, SerialRcm};
 pub use stream::{region_border, region_stream};
 pub use temporal::{changed_pixels, temporal_differences};
-pub use thresholds::ThresholdInputs;
+pub use thresholds::{ThresholdInputs, ZoneInputs};
 pub use window_filter::filtered_pixel;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The threshold inputs of a core, which are the same for every organization.
 
-use foveate_camera::{Camera, FeatureKind};
+use foveate_camera::{Camera, FeatureKind, RegionClass};
 use foveate_design::Design;
 
 /// The values of the threshold inputs in one clock. Features are numbered in the order of the
@@ -21,20 +21,104 @@ pub struct ThresholdInputs {
     pub summary_level: u32,
 }
 
+/// The inputs of a core with zones in one clock.
+#[derive(Clone, Copy, Debug)]
+pub struct ZoneInputs<'a> {
+    /// Values of `zone_i`, one per lane.
+    pub classes: &'a [RegionClass],
+    /// The thresholds of keen regions.
+    pub keen: &'a ThresholdInputs,
+    /// Threshold of the summaries of regions that are off.
+    pub off_summary_level: u32,
+}
+
+/// The thresholds of all classes in one clock.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ClassThresholdInputs<'a> {
+    own: &'a ThresholdInputs,
+    keen: &'a ThresholdInputs,
+    off_summary_level: u32,
+}
+
+impl<'a> ClassThresholdInputs<'a> {
+    /// Makes the thresholds of a core that has these inputs. Without zones all classes have the same
+    /// thresholds.
+    pub(crate) fn new(own: &'a ThresholdInputs, zones: Option<ZoneInputs<'a>>) -> Self {
+        Self {
+            own,
+            keen: zones.map_or(own, |zones| zones.keen),
+            off_summary_level: zones.map_or(own.summary_level, |zones| zones.off_summary_level),
+        }
+    }
+
+    /// Returns the thresholds of a class, except the level of summaries.
+    pub(crate) fn of(self, class: RegionClass) -> &'a ThresholdInputs {
+        match class {
+            RegionClass::Normal | RegionClass::Off | RegionClass::Always => self.own,
+            RegionClass::Keen => self.keen,
+        }
+    }
+
+    /// Returns the level of the summaries of a class.
+    pub(crate) fn summary_level(self, class: RegionClass) -> u32 {
+        match class {
+            RegionClass::Off => self.off_summary_level,
+            RegionClass::Normal | RegionClass::Keen | RegionClass::Always => {
+                self.of(class).summary_level
+            }
+        }
+    }
+}
+
+/// The thresholds of all classes as the constants of a core.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ThresholdConstants {
+    own: ThresholdInputs,
+    keen: ThresholdInputs,
+    off_summary_level: u32,
+}
+
+impl ThresholdConstants {
+    /// Returns the constants, or `None` if the core has thresholds as inputs.
+    pub(crate) fn of_design(design: &Design) -> Option<Self> {
+        let of_class = |class| ThresholdInputs::of_class(design, class);
+        ThresholdInputs::constants(design).map(|own| Self {
+            own,
+            keen: of_class(RegionClass::Keen),
+            off_summary_level: of_class(RegionClass::Off).summary_level,
+        })
+    }
+
+    /// Returns the constants as the thresholds of all classes.
+    pub(crate) fn by_class(&self) -> ClassThresholdInputs<'_> {
+        ClassThresholdInputs {
+            own: &self.own,
+            keen: &self.keen,
+            off_summary_level: self.off_summary_level,
+        }
+    }
+}
+
 impl ThresholdInputs {
     /// Returns the thresholds of the configuration of the camera.
     #[must_use]
     pub fn from_camera(camera: &Camera) -> Self {
-        let temporal = camera.temporal();
+        Self::of_class(camera, RegionClass::Normal)
+    }
+
+    /// Returns the thresholds of a class in the configuration of the camera.
+    #[must_use]
+    pub fn of_class(camera: &Camera, class: RegionClass) -> Self {
+        let own = camera.class_thresholds(class);
         let mut thresholds = Self {
             level: [0; FeatureKind::COUNT],
             min_score: [0; FeatureKind::COUNT],
-            temporal_level: temporal.level,
-            temporal_min_count: temporal.min_count,
-            summary_level: camera.periphery().map_or(0, |periphery| periphery.level),
+            temporal_level: own.temporal_level,
+            temporal_min_count: own.min_count,
+            summary_level: own.summary_level.unwrap_or(0),
         };
         let places = thresholds.level.iter_mut().zip(&mut thresholds.min_score);
-        for (feature, (level, min_score)) in camera.features().iter().zip(places) {
+        for (feature, (level, min_score)) in own.features.iter().zip(places) {
             // A feature without a level has no such input.
             *level = feature.level().unwrap_or(0);
             *min_score = feature.min_score();

@@ -100,6 +100,7 @@ fn mistakes_are_one_line() {
     let with_tools = require_tools(&[Tool::Yosys]);
     if with_tools {
         wrong(&["fit", "scene:street", "--frames", "3"], &["3 frames"]);
+        wrong(&["fit", "scene:street", "--set", "zones={}"], &["leave the table [zones] out"]);
     }
     for bad in ["--max-flips=101%", "--target-active=x", "--min-fps=0", "--min-psnr=-1"] {
         assert_eq!(run_in(dir.path(), &["fit", "scene:street", bad]).code, 2, "{bad}");

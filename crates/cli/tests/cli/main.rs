@@ -49,3 +49,4 @@ mod units;
 mod user_texts;
 mod view;
 mod waiting;
+mod zones;

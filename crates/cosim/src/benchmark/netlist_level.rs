@@ -76,7 +76,7 @@ fn design_of_unit(design: &Design) -> Result<Design, CosimError> {
     match design.unit().array {
         ArrayStructure::RpuCopies => {
             let (side, mut config) = (design.region_size(), design.config());
-            (config.camera.frame.width, config.camera.frame.height) = (Some(side), Some(side));
+            config.camera.resize_frame(side, side);
             Ok(config.validate()?)
         }
         ArrayStructure::SharedLogic => Ok(design.lone_unit()),

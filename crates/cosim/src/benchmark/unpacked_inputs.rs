@@ -3,8 +3,8 @@
 
 use std::io::Read as _;
 
-use foveate_design::{Design, PortRole};
-use foveate_model::{CoreInput, ThresholdInputs};
+use foveate_design::{Design, PortRole, RegionClass};
+use foveate_model::{CoreInput, ThresholdInputs, ZoneInputs};
 
 use crate::error::CosimError;
 use crate::field::RecordField;
@@ -26,7 +26,7 @@ pub(super) struct UnpackedInputs {
 }
 
 /// The inputs of one clock, except its pixels.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct ClockControls {
     reset: bool,
     valid: bool,
@@ -37,6 +37,15 @@ struct ClockControls {
     /// The sink takes forwarded pixels, if the core has a port for this.
     forward_ready: bool,
     thresholds: ThresholdInputs,
+    zones: Option<ClockZones>,
+}
+
+/// The inputs of one clock that only a core with zones has.
+#[derive(Clone, Debug)]
+struct ClockZones {
+    classes: Vec<RegionClass>,
+    keen: ThresholdInputs,
+    off_summary_level: u32,
 }
 
 impl UnpackedInputs {
@@ -85,13 +94,25 @@ impl UnpackedInputs {
 impl ClockControls {
     fn from_record(design: &Design, layout: &RecordLayout, input: &[u8]) -> Self {
         let mut thresholds = ThresholdInputs::from_camera(design);
+        let mut zones = ClockZones::of_design(design);
         let (mut reset, mut valid, mut forward_ready) = (false, false, true);
         let (mut sof, mut reference_valid) = (false, false);
         let place = |kind| design.features().iter().position(|feature| feature.kind() == kind);
         let word = |value: u64| u32::try_from(value).expect("a level has at most 32 bits");
         for field in layout.fields() {
             let value = || field.get(input, 0);
-            match field.port.role {
+            let role = match field.port.role {
+                PortRole::RegionClass => {
+                    zones.classes = class_lanes(field, input);
+                    continue;
+                }
+                role => role,
+            };
+            let (role, thresholds) = match own_role(role) {
+                Some(own) => (own, &mut zones.keen),
+                None => (role, &mut thresholds),
+            };
+            match role {
                 PortRole::Reset => reset = value() == 1,
                 PortRole::Valid => valid = value() == 1,
                 PortRole::StartOfFrame => sof = value() == 1,
@@ -110,12 +131,21 @@ impl ClockControls {
                 PortRole::TemporalLevel => thresholds.temporal_level = word(value()),
                 PortRole::TemporalMinCount => thresholds.temporal_min_count = word(value()),
                 PortRole::SummaryLevel => thresholds.summary_level = word(value()),
+                PortRole::OffSummaryLevel => zones.off_summary_level = word(value()),
                 // Pixels are read separately, outputs are not applied, and the borders belong to a
                 // single RPU.
                 _ => {}
             }
         }
-        Self { reset, valid, is_start_of_frame: sof, reference_valid, forward_ready, thresholds }
+        Self {
+            reset,
+            valid,
+            is_start_of_frame: sof,
+            reference_valid,
+            forward_ready,
+            thresholds,
+            zones: design.zones().map(|_| zones),
+        }
     }
 
     fn core_input<'a>(&'a self, pixels: &'a [u16], reference_pixels: &'a [u16]) -> CoreInput<'a> {
@@ -126,9 +156,56 @@ impl ClockControls {
             reference_valid,
             forward_ready,
             ref thresholds,
+            ref zones,
         } = self;
+        let zones = zones.as_ref().map(|zones| ZoneInputs {
+            classes: &zones.classes,
+            keen: &zones.keen,
+            off_summary_level: zones.off_summary_level,
+        });
         let idle = CoreInput::idle(pixels, thresholds);
-        CoreInput { reset, valid, sof, reference_valid, reference_pixels, forward_ready, ..idle }
+        CoreInput {
+            reset,
+            valid,
+            sof,
+            reference_valid,
+            reference_pixels,
+            forward_ready,
+            zones,
+            ..idle
+        }
+    }
+}
+
+impl ClockZones {
+    fn of_design(design: &Design) -> Self {
+        Self {
+            classes: Vec::new(),
+            keen: ThresholdInputs::of_class(design, RegionClass::Keen),
+            off_summary_level: ThresholdInputs::of_class(design, RegionClass::Off).summary_level,
+        }
+    }
+}
+
+/// Returns the classes of all lanes.
+fn class_lanes(field: &RecordField, input: &[u8]) -> Vec<RegionClass> {
+    let class = |lane| {
+        let code = u8::try_from(field.get(input, lane)).ok();
+        code.and_then(RegionClass::from_code).expect("two bits are the code of a class")
+    };
+    (0..field.port.lanes).map(class).collect()
+}
+
+/// Returns the role of the threshold that a keen threshold takes the place of, or `None` for other
+/// roles.
+fn own_role(role: PortRole) -> Option<PortRole> {
+    match role {
+        PortRole::KeenLevel(kind) => Some(PortRole::Level(kind)),
+        PortRole::KeenMinScore(kind) => Some(PortRole::MinScore(kind)),
+        PortRole::KeenTemporalLevel => Some(PortRole::TemporalLevel),
+        PortRole::KeenTemporalMinCount => Some(PortRole::TemporalMinCount),
+        PortRole::KeenSummaryLevel => Some(PortRole::SummaryLevel),
+        _ => None,
     }
 }
 

@@ -51,6 +51,7 @@ impl<'a> ScriptPlayer<'a> {
                 sink: (false, 0),
                 store_fault: store_fault(part),
                 border: region_border(part, 0),
+                changes_classes: false,
             },
             gaps: gaps(part),
             frames_wait_for_sink: part.timing().departure().buffered_rows.is_none(),
@@ -65,11 +66,11 @@ impl<'a> ScriptPlayer<'a> {
                 continue;
             };
             if number == 0 {
-                self.begin(first)?;
+                self.begin(first, sequence.changes_classes)?;
                 let limit = FrameLimit::Beat(DISCARDED_BEATS);
                 self.driver.send_frame(&first.frame, limit, GapPattern::None)?;
             }
-            self.begin(first)?;
+            self.begin(first, sequence.changes_classes)?;
             self.play_frames(sequence)?;
             self.driver.end_sequence(sequence.end, &last.frame, self.gaps)?;
         }
@@ -77,9 +78,9 @@ impl<'a> ScriptPlayer<'a> {
     }
 
     /// Begins a sequence with a reset.
-    fn begin(&mut self, first: &BenchFrame) -> Result<(), CosimError> {
+    fn begin(&mut self, first: &BenchFrame, changes_classes: bool) -> Result<(), CosimError> {
         self.driver.configure_thresholds(first.thresholds);
-        self.driver.begin_sequence(self.surroundings)
+        self.driver.begin_sequence(SequenceSurroundings { changes_classes, ..self.surroundings })
     }
 
     /// Plays the frames of a sequence; before an end with pixels that leave, up to the first one.
@@ -126,7 +127,7 @@ impl<'a> ScriptPlayer<'a> {
         else {
             return Ok(());
         };
-        self.begin(first)?;
+        self.begin(first, false)?;
         for (shown, delivery) in &script.damaged {
             self.driver.send_damaged_frame(&shown.frame, *delivery, self.gaps)?;
         }

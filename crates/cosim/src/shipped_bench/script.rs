@@ -40,12 +40,18 @@ pub(super) struct BenchSequence {
     pub(super) frames: Vec<BenchFrame>,
     /// The state of the core at the reset that begins the next sequence.
     pub(super) end: SequenceEnd,
+    /// True if the classes of regions change, in a core with zones.
+    pub(super) changes_classes: bool,
 }
 
 impl BenchSequence {
     /// Creates a sequence after which everything leaves.
     fn drained(frames: Vec<BenchFrame>) -> Self {
-        Self { frames, end: SequenceEnd::Drained }
+        Self::ending_at(frames, SequenceEnd::Drained)
+    }
+
+    fn ending_at(frames: Vec<BenchFrame>, end: SequenceEnd) -> Self {
+        Self { frames, end, changes_classes: false }
     }
 }
 
@@ -97,6 +103,11 @@ impl BenchScript {
         sequences.extend(writer.exact_sequences());
         if is_wide {
             sequences.push(BenchSequence::drained(writer.wide_frames()));
+        }
+        if part.zones().is_some() {
+            let frames = writer.wide_frames();
+            let drained = BenchSequence::drained(frames);
+            sequences.push(BenchSequence { changes_classes: true, ..drained });
         }
         Self { sequences, damaged: writer.damaged_frames() }
     }
@@ -267,7 +278,7 @@ impl<'a> ScriptWriter<'a> {
             beside(2 * level + 2, false),
             beside(0, true),
         ];
-        BenchSequence { frames, end: SequenceEnd::MeanLeaving }
+        BenchSequence::ending_at(frames, SequenceEnd::MeanLeaving)
     }
 
     /// Returns the sequence in which the sink stalls until regions are lost, and summaries are lost
@@ -329,7 +340,7 @@ impl<'a> ScriptWriter<'a> {
     /// A reset comes while pixels leave.
     fn leaving_sequence(&self, is_wide: bool) -> BenchSequence {
         let frames = if is_wide { self.wide_frames() } else { self.relevant_frames() };
-        BenchSequence { frames, end: SequenceEnd::Leaving(0) }
+        BenchSequence::ending_at(frames, SequenceEnd::Leaving(0))
     }
 
     /// Returns a frame of relevant regions. With `flow` there are two, because a region has a

@@ -14,6 +14,12 @@ fn is_threshold(role: PortRole) -> bool {
             | PortRole::TemporalLevel
             | PortRole::TemporalMinCount
             | PortRole::SummaryLevel
+            | PortRole::KeenLevel(_)
+            | PortRole::KeenMinScore(_)
+            | PortRole::KeenTemporalLevel
+            | PortRole::KeenTemporalMinCount
+            | PortRole::KeenSummaryLevel
+            | PortRole::OffSummaryLevel
     )
 }
 

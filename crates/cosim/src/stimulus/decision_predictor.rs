@@ -3,7 +3,9 @@
 //! level can be aimed at these clocks.
 
 use foveate_design::{Design, FeatureKind, Hardware, PortRole};
-use foveate_model::{CoreInput, CycleModel, FrameSync, PipelinedRpu, RpuInput, ThresholdInputs};
+use foveate_model::{
+    CoreInput, CycleModel, FrameSync, PipelinedRpu, RpuInput, ThresholdInputs, ZoneInputs,
+};
 
 /// A separate RPU that runs along with the array. A decision comes at the same clock in every lane,
 /// and pixels, borders and thresholds do not change that clock.
@@ -83,9 +85,17 @@ impl DecisionPredictor {
         lane: usize,
     ) -> Option<u32> {
         let is_sent = |summary_level: u32| {
-            let thresholds = ThresholdInputs { summary_level, ..*input.thresholds };
+            // The class of the region decides which of the levels is in use.
+            let with_level = |own: &ThresholdInputs| ThresholdInputs { summary_level, ..*own };
+            let thresholds = with_level(input.thresholds);
+            let keen = with_level(input.zones.map_or(input.thresholds, |zones| zones.keen));
+            let zones = input.zones.map(|zones| ZoneInputs {
+                keen: &keen,
+                off_summary_level: summary_level,
+                ..zones
+            });
             let mut ahead = core.duplicate();
-            ahead.clock(&CoreInput { thresholds: &thresholds, ..*input });
+            ahead.clock(&CoreInput { thresholds: &thresholds, zones, ..*input });
             let mut values = Vec::new();
             ahead.append_output(PortRole::Summary, &mut values);
             values[lane] == 1

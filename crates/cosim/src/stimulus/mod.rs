@@ -26,6 +26,7 @@ mod model_driver;
 mod pattern_drawing;
 mod pattern_scorer;
 mod port_thresholds;
+mod port_zones;
 mod random;
 mod sequence_end;
 mod sequences;

@@ -9,6 +9,7 @@ use super::frame_delivery::FrameDelivery;
 use super::frame_feed::FrameFeed;
 use super::gap_pattern::GapPattern;
 use super::port_thresholds::PortThresholds;
+use super::port_zones::PortZones;
 use super::random::Random;
 use super::sink::{Sink, SinkPattern};
 use super::threshold_aimer::ThresholdAim;
@@ -47,12 +48,20 @@ pub(crate) struct SequenceSurroundings {
     pub(crate) store_fault: StoreFault,
     /// The sides at the frame's border, if these are an input.
     pub(crate) border: u8,
+    /// True if the classes of regions change, in a core with zones. Otherwise all are normal.
+    pub(crate) changes_classes: bool,
 }
 
 impl SequenceSurroundings {
     /// Returns the surroundings with the thresholds of the design and with a faultless frame store.
     pub(super) fn of_design(sink: (bool, usize), border: u8) -> Self {
-        Self { aim: ThresholdAim::Configured, sink, store_fault: StoreFault::None, border }
+        Self {
+            aim: ThresholdAim::Configured,
+            sink,
+            store_fault: StoreFault::None,
+            border,
+            changes_classes: true,
+        }
     }
 }
 
@@ -99,7 +108,11 @@ impl<'a, Receiver: ClockReceiver> ModelDriver<'a, Receiver> {
             },
             feed,
             drain_timing: DrainTiming::for_design(design),
-            thresholds: PortThresholds::new(design, feed.square_side(), has_frame_sync),
+            thresholds: PortThresholds::new(
+                design,
+                (feed.square_side(), feed.width()),
+                has_frame_sync,
+            ),
             sink: Sink::for_design(design),
             // The store draws from a copy, so that the clocks do not depend on it.
             external_store: ExternalStore::for_design(design, unused, random.clone().fork()),
@@ -129,8 +142,9 @@ impl<'a, Receiver: ClockReceiver> ModelDriver<'a, Receiver> {
         &mut self,
         surroundings: SequenceSurroundings,
     ) -> Result<(), CosimError> {
-        let SequenceSurroundings { aim, sink: (stalls, turn), store_fault, border } = surroundings;
-        self.thresholds.begin_sequence(aim);
+        let SequenceSurroundings { aim, sink, store_fault, border, changes_classes } = surroundings;
+        let (stalls, turn) = sink;
+        self.thresholds.begin_sequence(aim, changes_classes);
         if let Some(sink) = &mut self.sink {
             sink.set_pattern(sink.pattern_of_turn(stalls, turn));
         }
@@ -357,7 +371,7 @@ impl<'a, Receiver: ClockReceiver> ModelDriver<'a, Receiver> {
             Some(store) => store.output_word(&*self.core),
             None => (false, Vec::new()),
         };
-        let thresholds = self.thresholds.current();
+        let (thresholds, zones) = (self.thresholds.current(), self.thresholds.zones().cloned());
         let input = CoreInput {
             reset,
             valid,
@@ -368,10 +382,12 @@ impl<'a, Receiver: ClockReceiver> ModelDriver<'a, Receiver> {
             reference_pixels: &reference,
             forward_ready,
             thresholds: &thresholds,
+            zones: zones.as_ref().map(PortZones::inputs),
         };
         self.thresholds.aim_at_decision(&input, &*self.core, &mut self.random);
         let thresholds = self.thresholds.current();
-        let input = CoreInput { thresholds: &thresholds, ..input };
+        let zones = self.thresholds.zones().map(PortZones::inputs);
+        let input = CoreInput { thresholds: &thresholds, zones, ..input };
         self.core.clock(&input);
         if let Some(store) = &mut self.external_store {
             store.store_output(&*self.core);

@@ -2,6 +2,7 @@
 //! The thresholds at the ports of a core, clock by clock.
 
 use super::decision_predictor::DecisionPredictor;
+use super::port_zones::PortZones;
 use super::random::Random;
 use super::threshold_aimer::{ThresholdAim, ThresholdAimer};
 use foveate_design::{Design, ThresholdSource as Mode};
@@ -18,6 +19,8 @@ pub(super) struct PortThresholds<'a> {
     /// The thresholds of [`ThresholdAim::Configured`].
     configured: ThresholdInputs,
     current: ThresholdInputs,
+    /// The other inputs of a core with zones.
+    zones: Option<PortZones>,
     /// True if a frame is under way, so that thresholds must not change.
     is_under_way: bool,
     /// The number of frames since the sequence began.
@@ -29,8 +32,13 @@ pub(super) struct PortThresholds<'a> {
 }
 
 impl<'a> PortThresholds<'a> {
-    /// `has_frame_sync` says that the frame synchronization of the design is simulated.
-    pub(super) fn new(design: &'a Design, square_side: u32, has_frame_sync: bool) -> Self {
+    /// `lanes` is the number of regions at the ports, and `has_frame_sync` says that the frame
+    /// synchronization of the design is simulated.
+    pub(super) fn new(
+        design: &'a Design,
+        (square_side, lanes): (u32, usize),
+        has_frame_sync: bool,
+    ) -> Self {
         let configured = ThresholdInputs::from_camera(design);
         Self {
             design,
@@ -39,6 +47,7 @@ impl<'a> PortThresholds<'a> {
             aim: ThresholdAim::Configured,
             configured,
             current: configured,
+            zones: PortZones::of_design(design, lanes),
             is_under_way: false,
             turn: 0,
             square_side,
@@ -47,7 +56,10 @@ impl<'a> PortThresholds<'a> {
     }
 
     /// Begins a sequence. Thresholds that are constants are always those of the design.
-    pub(super) fn begin_sequence(&mut self, aim: ThresholdAim) {
+    pub(super) fn begin_sequence(&mut self, aim: ThresholdAim, changes_classes: bool) {
+        if let Some(zones) = &mut self.zones {
+            zones.begin_sequence(changes_classes);
+        }
         self.aim = match self.design.threshold_source() {
             Mode::Constant if aim != ThresholdAim::Independent => ThresholdAim::Configured,
             Mode::Constant | Mode::Runtime => aim,
@@ -59,6 +71,11 @@ impl<'a> PortThresholds<'a> {
     /// Returns the thresholds at the ports.
     pub(super) fn current(&self) -> ThresholdInputs {
         self.current
+    }
+
+    /// Returns the other inputs of a core with zones.
+    pub(super) fn zones(&self) -> Option<&PortZones> {
+        self.zones.as_ref()
     }
 
     /// Returns true if the thresholds are those of the design, so that the data must be chosen to
@@ -127,6 +144,9 @@ impl<'a> PortThresholds<'a> {
             let now = first_square(frame, self.square_side);
             let squares = (now.as_slice(), self.last_square.as_slice());
             self.aimer.aim_levels(squares, largest, &mut self.current, random);
+            if let Some(zones) = &mut self.zones {
+                self.aimer.aim_levels(squares, largest, &mut zones.keen, random);
+            }
             self.last_square = now;
             return;
         }
@@ -152,6 +172,11 @@ impl<'a> PortThresholds<'a> {
         };
         if are_unrelated {
             self.aimer.randomize(&mut self.current, random);
+        }
+        let Some(zones) = &mut self.zones else { return };
+        zones.begin_clock(random);
+        if are_unrelated {
+            self.aimer.randomize(&mut zones.keen, random);
         }
     }
 
@@ -179,9 +204,19 @@ impl<'a> PortThresholds<'a> {
         if predictor.decides(input) {
             let (scores, count) = predictor.predict_scores(core, input, lane);
             self.aimer.aim_minima(&scores, count, &mut self.current, random);
-            let input = CoreInput { thresholds: &self.current, ..*input };
+            if let Some(zones) = &mut self.zones {
+                self.aimer.aim_minima(&scores, count, &mut zones.keen, random);
+            }
+            let zones = self.zones.as_ref().map(PortZones::inputs);
+            let input = CoreInput { thresholds: &self.current, zones, ..*input };
             let level = predictor.decisive_summary_level(core, &input, lane);
             self.aimer.aim_summary_level(level, &mut self.current, random);
+            if let Some(zones) = &mut self.zones {
+                self.aimer.aim_summary_level(level, &mut zones.keen, random);
+                let mut off = self.current;
+                self.aimer.aim_summary_level(level, &mut off, random);
+                zones.off_summary_level = off.summary_level;
+            }
         }
     }
 }

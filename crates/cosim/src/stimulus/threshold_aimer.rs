@@ -37,6 +37,17 @@ pub(crate) enum ThresholdAim {
     EveryClock,
 }
 
+impl ThresholdAim {
+    /// Returns true if the classes of regions may change. Otherwise the purpose of the aim is that of
+    /// normal regions.
+    pub(super) fn allows_classes(self) -> bool {
+        match self {
+            Self::Configured | Self::Exact | Self::Largest | Self::EveryClock => true,
+            Self::Smallest | Self::Independent | Self::HeldRegions | Self::DriftingRegions => false,
+        }
+    }
+}
+
 /// A source of thresholds near the data.
 pub(crate) struct ThresholdAimer {
     design: Design,

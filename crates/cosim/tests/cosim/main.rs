@@ -16,6 +16,7 @@ mod mutated_modules;
 mod negative_control;
 mod netlist;
 mod pipelined_matrix;
+mod pipelined_zones;
 mod port_widths;
 mod preset_agreement;
 mod raster_ends;

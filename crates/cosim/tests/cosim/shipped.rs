@@ -66,7 +66,8 @@ fn designs_with_turns(is_in: fn(usize) -> bool) -> Vec<String> {
                     )
                 };
                 let pipelined = keys(Organization::Pipelined);
-                list.push(format!("{}{pipelined}", frame_keys((4, 3), size)));
+                let zones = if turn.is_multiple_of(3) { "[zones]\n" } else { "" };
+                list.push(format!("{}{pipelined}{zones}", frame_keys((4, 3), size)));
                 if size >= 4 {
                     let fold = [1, 2, 5][turn % 3];
                     let feed = ["parallel", "raster"][turn / 3 % 2];

@@ -2,7 +2,8 @@
 //! The interface of a pipelined RPU, and that of the RCM that consists of such RPUs.
 
 use crate::interface::{BeatRegion, CoreInterface, CoreStream, StreamRole};
-use crate::port::{decision_ports, sync_input, sync_output, threshold_ports};
+use crate::port::{class_input, decision_ports, sync_input, sync_output};
+use crate::thresholds::threshold_ports;
 use crate::{Design, Port, PortDirection, PortRole};
 
 /// Returns the interface of one RPU.
@@ -41,7 +42,8 @@ pub(crate) fn rpu_interface(design: &Design) -> CoreInterface {
     );
     let doc = "sides on the frame's border: {bottom, top, right, left}";
     let border = design.needs_border().then(|| single(Input, PortRole::Border, 4, doc));
-    let controls = border.into_iter().chain(threshold_ports(design)).collect();
+    let controls = border.into_iter().chain(class_input(design)).chain(threshold_ports(design));
+    let controls = controls.collect();
     CoreInterface::new(vec![pixels, decisions, forwarded], controls)
 }
 
@@ -84,13 +86,15 @@ pub(crate) fn rcm_interface(design: &Design) -> CoreInterface {
             | StreamRole::LostRegions => {}
         }
     }
-    interface.change_stream_ports(|port| {
+    let make_per_region = |port: &mut Port| {
         if is_per_region(port.role) {
             port.lanes = design.regions();
             port.per_lane = true;
             port.doc.push_str("; element i is region i");
         }
-    });
+    };
+    interface.controls.iter_mut().for_each(make_per_region);
+    interface.change_stream_ports(make_per_region);
     interface
 }
 
@@ -99,6 +103,7 @@ fn is_per_region(role: PortRole) -> bool {
     matches!(
         role,
         PortRole::Pixel
+            | PortRole::RegionClass
             | PortRole::Srs
             | PortRole::Trs
             | PortRole::Active

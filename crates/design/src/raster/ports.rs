@@ -3,7 +3,8 @@
 //! leave.
 
 use crate::interface::{BeatRegion, CoreInterface, CoreStream, StreamRole};
-use crate::port::{decision_ports, sync_input, sync_output, threshold_ports};
+use crate::port::{decision_ports, sync_input, sync_output};
+use crate::thresholds::threshold_ports;
 use crate::{Design, Port, PortDirection, PortRole, RasterDesign};
 
 /// Bits of `lost_count_o`, which stays at its largest value once it has reached it.

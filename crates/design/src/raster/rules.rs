@@ -59,8 +59,7 @@ impl OrganizationRules for RasterDesign<'_> {
         let size = self.region_size();
         let columns = min_columns(size, self.pixels_per_clock());
         let mut config = self.config();
-        config.camera.frame.width = Some(columns * size);
-        config.camera.frame.height = Some(LONE_ROWS * size);
+        config.camera.resize_frame(columns * size, LONE_ROWS * size);
         config.validate().expect("a raster design stays one with the smallest frame")
     }
 

@@ -128,7 +128,7 @@ impl SerialDesign<'_> {
     pub fn single_lane_design(&self) -> Design {
         let (width, height) = (self.fold() * self.region_size(), self.region_size());
         let mut config = self.config();
-        (config.camera.frame.width, config.camera.frame.height) = (Some(width), Some(height));
+        config.camera.resize_frame(width, height);
         let lane = config.validate_up_to(u32::MAX);
         lane.expect("a valid design stays one with a frame of as many regions as share a lane")
     }

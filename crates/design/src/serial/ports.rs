@@ -2,7 +2,8 @@
 //! The interface of a serial array.
 
 use crate::interface::{BeatRegion, CoreInterface, CoreStream, StreamRole};
-use crate::port::{decision_ports, sync_input, sync_output, threshold_ports};
+use crate::port::{decision_ports, sync_input, sync_output};
+use crate::thresholds::threshold_ports;
 use crate::{PixelFeed, Port, PortDirection, PortRole, SerialDesign};
 
 /// Returns the interface of the array.

@@ -318,10 +318,9 @@ impl ThresholdInput {
 
 /// Returns the thresholds that are inputs of the array.
 pub(crate) fn thresholds(design: &Design) -> Vec<ThresholdInput> {
-    let value =
-        |port: &Port| threshold_value(design, port).expect("a control of an array is a threshold");
     let CoreInterface { controls, .. } = design.rcm_interface();
-    controls.into_iter().map(|port| ThresholdInput { value: value(&port), port }).collect()
+    let input = |port: Port| Some(ThresholdInput { value: threshold_value(design, &port)?, port });
+    controls.into_iter().filter_map(input).collect()
 }
 
 /// Returns the fingerprint of a design as a number.

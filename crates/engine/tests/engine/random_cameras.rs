@@ -99,6 +99,7 @@ pub(crate) fn zoned_cameras() -> impl Strategy<Value = Camera> {
                     },
                     periphery: KeenPeripheryConfig { level: summaries(levels.0) },
                 },
+                ..ZonesConfig::default()
             });
             config.validate().unwrap_or_else(|error| panic!("{error}\n{config:?}"))
         })

@@ -100,9 +100,12 @@ pub struct FitRequest<'a> {
 /// one if no design does, and measures it on the second half.
 ///
 /// # Errors
-/// Fails if an input cannot be read or is too short to be halved, if Yosys is missing or fails, or
-/// if `hooks` cancels.
+/// Fails if the task has zones, if an input cannot be read or is too short to be halved, if Yosys is
+/// missing or fails, or if `hooks` cancels.
 pub fn fit(request: &FitRequest<'_>, hooks: &dyn RunHooks) -> Result<FitResult, ExploreError> {
+    if request.task.camera.zones.is_some() {
+        return Err(ExploreError::Zones);
+    }
     let (task, lane_memory) = task_without_hardware(request.task);
     let request = &FitRequest { task: &task, ..request.clone() };
     let inputs = (request.inputs, request.boxes);

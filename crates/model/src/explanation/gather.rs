@@ -5,7 +5,8 @@
 use std::cmp::Ordering;
 
 use foveate_camera::{
-    Camera, Displacement, FeatureKind, IrrelevantRendering, Periphery, RegionAction, SpatialFeature,
+    Camera, ClassThresholds, Displacement, FeatureKind, IrrelevantRendering, Periphery,
+    RegionAction, SpatialFeature,
 };
 use foveate_design::Design;
 use foveate_frame::Frame;
@@ -43,7 +44,9 @@ impl RegionExplanation {
         outcome: &FunctionalOutcome,
     ) -> Self {
         let (camera, at) = (design.camera(), region as usize);
-        let scores = camera.features().iter().zip(&outcome.scores);
+        let class = outcome.classes[at];
+        let thresholds = camera.class_thresholds(class);
+        let scores = thresholds.features.iter().zip(&outcome.scores);
         let mut references = RegionReferences::without_references(camera);
         if let Some(pixels) = &before.reference {
             references.set(camera, region, pixels);
@@ -67,11 +70,19 @@ impl RegionExplanation {
                 })
                 .collect(),
             combine: camera.combine().name(),
+            class: camera.zones().map(|_| class),
             srs: outcome.srs[at],
-            temporal: TemporalExplanation::of(camera, before.reference, outcome, region),
+            temporal: TemporalExplanation::of(
+                camera,
+                thresholds,
+                before.reference,
+                outcome,
+                region,
+            ),
             trs: outcome.trs[at],
             summary: camera.periphery().map(|periphery| {
-                SummaryExplanation::of(periphery, &outcome.means[at], before.summary)
+                let level = thresholds.summary_level.unwrap_or(periphery.level);
+                SummaryExplanation::of(periphery, level, &outcome.means[at], before.summary)
             }),
             action: outcome.actions[at].name(),
             rule: rule(camera, outcome.srs[at], outcome.trs[at], outcome.actions[at]),
@@ -179,41 +190,40 @@ impl SegmentParts {
 }
 
 impl SummaryExplanation {
-    fn of(periphery: &Periphery, means: &[u16], shown: Option<Vec<u16>>) -> Self {
+    fn of(periphery: &Periphery, level: u32, means: &[u16], shown: Option<Vec<u16>>) -> Self {
         let rows = |means: &[u16]| -> SquareRows<u16> {
             means.chunks(periphery.blocks as usize).map(<[u16]>::to_vec).collect()
         };
-        Self { means: rows(means), shown: shown.map(|shown| rows(&shown)), level: periphery.level }
+        Self { means: rows(means), shown: shown.map(|shown| rows(&shown)), level }
     }
 }
 
 impl TemporalExplanation {
     fn of(
         camera: &Camera,
+        thresholds: ClassThresholds<'_>,
         reference: Option<Vec<u16>>,
         outcome: &FunctionalOutcome,
         region: u32,
     ) -> Self {
-        let temporal = camera.temporal();
+        let ClassThresholds { temporal_level: level, min_count, .. } = thresholds;
         let current = pixels(camera, &outcome.denoised, region);
         let hits = match &reference {
             Some(referenced) => {
                 let pairs = current.iter().zip(referenced);
                 pairs
-                    .map(|(current, referenced)| {
-                        u32::from(current.abs_diff(*referenced)) > temporal.level
-                    })
+                    .map(|(current, referenced)| u32::from(current.abs_diff(*referenced)) > level)
                     .collect()
             }
             None => vec![true; current.len()],
         };
         Self {
-            against: temporal.reference.name(),
+            against: camera.temporal().reference.name(),
             reference: reference.map(|pixels| rows(camera, &pixels)),
-            level: temporal.level,
+            level,
             hits: rows(camera, &hits),
             count: outcome.temporal_count[region as usize],
-            min_count: temporal.min_count,
+            min_count,
         }
     }
 }

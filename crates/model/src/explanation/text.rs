@@ -7,6 +7,8 @@
 
 use std::fmt::{self, Display, Formatter, Write as _};
 
+use foveate_camera::RegionClass;
+
 use crate::feature::surface::DisplacementSums;
 
 use super::{
@@ -46,6 +48,9 @@ impl Display for RegionExplanation {
             let (right, below) = (place.padding_right, place.padding_below);
             writeln!(f, "padding: the last {right} columns and the last {below} rows")?;
         }
+        if let Some(class) = self.class {
+            writeln!(f, "class {class}: {}", class_text(class))?;
+        }
         writeln!(f, "{}", grid.note())?;
         grid.show(f, "raw", &self.raw, None)?;
         grid.show(f, &self.filter_text(), &self.denoised, None)?;
@@ -57,7 +62,11 @@ impl Display for RegionExplanation {
         for spatial in &self.spatial {
             writeln!(f, "{}", spatial.line())?;
         }
-        writeln!(f, "{:<9} SRS {} ({} of the votes)", "", u8::from(self.srs), self.combine)?;
+        let srs = u8::from(self.srs);
+        match self.class.and_then(RegionClass::forced_srs) {
+            None => writeln!(f, "{:<9} SRS {srs} ({} of the votes)", "", self.combine)?,
+            Some(_) => writeln!(f, "{:<9} SRS {srs} (by the class, not by the votes)", "")?,
+        }
         let TemporalExplanation { count, min_count, .. } = self.temporal;
         let sign = comparison_sign(self.trs);
         let trs = u8::from(self.trs);
@@ -320,6 +329,16 @@ impl GridFormat {
             }
         }
         Ok(())
+    }
+}
+
+/// Returns the effect of a class in words.
+fn class_text(class: RegionClass) -> &'static str {
+    match class {
+        RegionClass::Normal => "the thresholds of the camera",
+        RegionClass::Off => "SRS is 0, whatever the votes are",
+        RegionClass::Keen => "the keen thresholds",
+        RegionClass::Always => "SRS is 1, whatever the votes are",
     }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The values that travel between the stages.
 
+use foveate_design::RegionClass;
+
 use super::rpu_parameters::MAX_FEATURES;
 use crate::feature::surface::WindowDifferences;
 
@@ -26,6 +28,8 @@ impl StagePixel {
 pub(super) struct TailStep {
     pub(super) pixel: StagePixel,
     pub(super) hits: [bool; MAX_FEATURES],
+    /// The class of the region in the frame of the pixel.
+    pub(super) class: RegionClass,
     /// The differences for `surface`; zeros in a design without it.
     pub(super) differences: WindowDifferences,
 }

@@ -7,6 +7,7 @@ use super::RpuOutput;
 use super::rpu_array::RpuArray;
 use crate::conversions::index;
 use crate::cycle_model::{CoreInput, CycleModel};
+use crate::thresholds::ClassThresholdInputs;
 use crate::{FrameSync, region_border};
 
 /// The cycle-level model of an RCM. A new one is in the state after a reset.
@@ -48,17 +49,19 @@ impl PipelinedRcm {
     /// of the outputs belongs to region i.
     ///
     /// # Panics
-    /// Panics if there is not one pixel per region.
+    /// Panics if there is not one pixel per region, or not one class per region.
     pub fn step(&mut self, input: &CoreInput<'_>) -> &[RpuOutput] {
-        let &CoreInput { reset, valid, sof, pixels, thresholds, .. } = input;
+        let &CoreInput { reset, valid, sof, pixels, thresholds, zones, .. } = input;
         assert_eq!(pixels.len(), self.rpus.lanes(), "one pixel per region is needed");
+        let thresholds = ClassThresholdInputs::new(thresholds, zones);
         if reset {
             self.sync.reset();
             self.rpus.reset(thresholds);
         } else {
             let valid = self.sync.step(valid, sof, true);
             let borders = self.borders.as_deref().unwrap_or(std::slice::from_ref(&input.border));
-            self.rpus.step(valid.then_some(pixels), borders, thresholds);
+            let classes = zones.map(|zones| zones.classes);
+            self.rpus.step(valid.then_some(pixels), (borders, classes), thresholds);
         }
         self.outputs()
     }

@@ -2,6 +2,8 @@
 //! The decision, which is combinational: it depends on the score ports and the thresholds of the
 //! clock.
 
+use foveate_design::RegionClass;
+
 use super::rpu_parameters::{MAX_FEATURES, RpuParameters};
 use crate::ThresholdInputs;
 use crate::decision::combine_votes;
@@ -29,6 +31,11 @@ impl RelevanceBits {
             srs: combine_votes(plan.combine, votes),
             trs: temporal_count >= thresholds.temporal_min_count,
         }
+    }
+
+    /// Returns the bits of a region of this class.
+    pub(super) fn of_class(self, class: RegionClass) -> Self {
+        Self { srs: class.forced_srs().unwrap_or(self.srs), ..self }
     }
 
     pub(super) fn is_active(self) -> bool {

@@ -6,6 +6,7 @@ use foveate_design::PipelinedDesign;
 use super::ports::{RpuInput, RpuOutput};
 use super::rpu_array::RpuArray;
 use crate::ThresholdInputs;
+use crate::thresholds::ClassThresholdInputs;
 
 /// The cycle-level model of one RPU. A new one is in the state after a reset.
 #[derive(Clone, Debug)]
@@ -21,13 +22,15 @@ impl PipelinedRpu {
     }
 
     /// Applies one rising edge, and returns every output after it, with these inputs still applied.
+    /// In a design with zones the class of the region is [`foveate_design::RegionClass::Normal`].
     pub fn step(&mut self, input: &RpuInput, thresholds: &ThresholdInputs) -> RpuOutput {
         let &RpuInput { reset, valid, pixel, border } = input;
+        let thresholds = ClassThresholdInputs::new(thresholds, None);
         if reset {
             self.array.reset(thresholds);
         } else {
             let pixels = [pixel];
-            self.array.step(valid.then_some(&pixels), &[border], thresholds);
+            self.array.step(valid.then_some(&pixels), (&[border], None), thresholds);
         }
         self.array.outputs()[0]
     }

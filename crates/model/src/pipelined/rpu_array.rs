@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! RPUs that are clocked together: their stages in sequence.
 
-use foveate_design::{FeatureKind, PipelinedDesign};
+use foveate_design::{FeatureKind, PipelinedDesign, RegionClass};
 
 use super::delay_line::DelayLine;
 use super::filter::FilterStage;
@@ -11,9 +11,9 @@ use super::rpu_parameters::RpuParameters;
 use super::tail::RpuTail;
 use super::window_center::WindowCenters;
 use super::window_stage::WindowStage;
-use crate::ThresholdInputs;
 use crate::feature::is_hit;
 use crate::feature::surface::window_differences;
+use crate::thresholds::ClassThresholdInputs;
 
 /// The RPUs of an array, one per lane. A new one is in the state after a reset.
 #[derive(Clone, Debug)]
@@ -21,6 +21,7 @@ pub(super) struct RpuArray {
     plan: RpuParameters,
     filter: Option<FilterStage>,
     feature: Option<WindowStage>,
+    classes: FrontClasses,
     /// The registers in front of the tails.
     delay: DelayLine<Vec<TailStep>>,
     tails: Vec<RpuTail>,
@@ -36,6 +37,7 @@ impl RpuArray {
         Self {
             filter: plan.filter.has_window().then(|| FilterStage::new(&plan)),
             feature: plan.has_feature_window.then(|| WindowStage::new(&plan, feature_side)),
+            classes: FrontClasses::new(lanes),
             delay: DelayLine::new(plan.tail_delay),
             tails: vec![RpuTail::new(&plan); lanes],
             outputs: vec![RpuOutput::default(); lanes],
@@ -53,18 +55,20 @@ impl RpuArray {
         &self.outputs
     }
 
-    /// Applies one rising edge without a reset. `pixels` has a pixel per lane if they are valid, and
-    /// `borders` the value of `border_i` of every lane.
+    /// Applies one rising edge without a reset. `pixels` has a pixel per lane if they are valid,
+    /// `borders` the value of `border_i` of every lane, and `classes` that of `zone_i` in an array
+    /// with zones.
     pub(super) fn step(
         &mut self,
         pixels: Option<&[u16]>,
-        borders: &[u8],
-        applied: &ThresholdInputs,
+        (borders, classes): (&[u8], Option<&[RegionClass]>),
+        applied: ClassThresholdInputs<'_>,
     ) {
         let plan = self.plan;
         let thresholds = plan.effective_thresholds(applied);
         let pixels = pixels.map(|pixels| pixels.iter().map(|&pixel| StagePixel::from_input(pixel)));
-        let steps = self.step_windows(pixels.map(Iterator::collect), borders, thresholds);
+        let pixels = pixels.map(Iterator::collect);
+        let steps = self.step_windows(pixels, (borders, classes), thresholds);
         let steps = self.delay.step(steps);
         for (lane, tail) in self.tails.iter_mut().enumerate() {
             tail.step(&plan, steps.as_ref().map(|steps| &steps[lane]), thresholds);
@@ -73,7 +77,7 @@ impl RpuArray {
     }
 
     /// Applies one rising edge with a reset.
-    pub(super) fn reset(&mut self, applied: &ThresholdInputs) {
+    pub(super) fn reset(&mut self, applied: ClassThresholdInputs<'_>) {
         let plan = self.plan;
         if let Some(filter) = &mut self.filter {
             filter.reset();
@@ -81,6 +85,7 @@ impl RpuArray {
         if let Some(feature) = &mut self.feature {
             feature.reset();
         }
+        self.classes.reset();
         self.delay.reset();
         self.tails.iter_mut().for_each(RpuTail::reset);
         self.update_outputs(plan.effective_thresholds(applied));
@@ -89,29 +94,61 @@ impl RpuArray {
     fn step_windows(
         &mut self,
         pixels: Option<Vec<StagePixel>>,
-        borders: &[u8],
-        thresholds: &ThresholdInputs,
+        (borders, classes): (&[u8], Option<&[RegionClass]>),
+        thresholds: ClassThresholdInputs<'_>,
     ) -> Option<Vec<TailStep>> {
         let denoised = match &mut self.filter {
             Some(filter) => filter.step(pixels),
             None => pixels,
         };
+        let plan = &self.plan;
         match &mut self.feature {
             Some(feature) => {
-                let centers = feature.step(denoised, self.plan.needs_border.then_some(borders))?;
-                Some(tail_steps(&self.plan, &centers, thresholds))
+                let centers = feature.step(denoised, plan.needs_border.then_some(borders))?;
+                let classes = self.classes.step(classes, plan.pixels);
+                Some(tail_steps(plan, &centers, classes, thresholds))
             }
             None => {
-                let step = |pixel| TailStep { pixel, ..TailStep::default() };
-                denoised.map(|pixels| pixels.into_iter().map(step).collect())
+                let pixels = denoised?;
+                let classes = self.classes.step(classes, plan.pixels);
+                let step = |(pixel, &class)| TailStep { pixel, class, ..TailStep::default() };
+                Some(pixels.into_iter().zip(classes).map(step).collect())
             }
         }
     }
 
-    fn update_outputs(&mut self, thresholds: &ThresholdInputs) {
+    fn update_outputs(&mut self, thresholds: ClassThresholdInputs<'_>) {
         for (tail, output) in self.tails.iter().zip(&mut self.outputs) {
             tail.set_output(&self.plan, thresholds, output);
         }
+    }
+}
+
+/// The classes of the regions in the frame whose pixels leave the last window.
+#[derive(Clone, Debug)]
+struct FrontClasses {
+    /// Number of pixels of the frame that have left the last window, 0..n.
+    position: usize,
+    classes: Vec<RegionClass>,
+}
+
+impl FrontClasses {
+    fn new(lanes: usize) -> Self {
+        Self { position: 0, classes: vec![RegionClass::default(); lanes] }
+    }
+
+    fn reset(&mut self) {
+        self.position = 0;
+    }
+
+    /// Applies a step of a frame of `pixels` pixels, and returns the classes of that frame. The
+    /// first step of a frame takes them from the inputs.
+    fn step(&mut self, inputs: Option<&[RegionClass]>, pixels: usize) -> &[RegionClass] {
+        if let Some(inputs) = inputs.filter(|_| self.position == 0) {
+            self.classes.copy_from_slice(inputs);
+        }
+        self.position = (self.position + 1) % pixels;
+        &self.classes
     }
 }
 
@@ -120,15 +157,26 @@ impl RpuArray {
 fn tail_steps(
     plan: &RpuParameters,
     centers: &WindowCenters<'_>,
-    thresholds: &ThresholdInputs,
+    classes: &[RegionClass],
+    thresholds: ClassThresholdInputs<'_>,
 ) -> Vec<TailStep> {
     let mut steps = centers.map(|pixel, _| TailStep { pixel, ..TailStep::default() });
-    for (feature, (&kind, level)) in plan.features.iter().zip(thresholds.level).enumerate() {
+    steps.iter_mut().zip(classes).for_each(|(step, &class)| step.class = class);
+    for (feature, &kind) in plan.features.iter().enumerate() {
         match kind {
             Some(kind @ (FeatureKind::Edge | FeatureKind::Corner)) => {
-                let hits = centers.map(|_, window| is_hit(kind, window, level));
-                for (step, hit) in steps.iter_mut().zip(hits) {
-                    step.hits[feature] = hit;
+                let hits_of = |class| {
+                    let level = thresholds.of(class).level[feature];
+                    centers.map(|_, window| is_hit(kind, window, level))
+                };
+                let own = hits_of(RegionClass::Normal);
+                let keen = classes.contains(&RegionClass::Keen);
+                let keen = keen.then(|| hits_of(RegionClass::Keen));
+                for (lane, step) in steps.iter_mut().enumerate() {
+                    step.hits[feature] = match (step.class, &keen) {
+                        (RegionClass::Keen, Some(keen)) => keen[lane],
+                        _ => own[lane],
+                    };
                 }
             }
             Some(FeatureKind::Surface) => {

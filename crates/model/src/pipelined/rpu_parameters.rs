@@ -6,8 +6,8 @@ use foveate_design::{
     PipelinedDesign, PipelinedTiming, ReferencePolicy, VoteCombination,
 };
 
-use crate::ThresholdInputs;
 use crate::conversions::index;
+use crate::thresholds::{ClassThresholdInputs, ThresholdConstants};
 
 /// Largest number of features of a design.
 pub(super) const MAX_FEATURES: usize = FeatureKind::COUNT;
@@ -44,7 +44,7 @@ pub(super) struct RpuParameters {
     /// Parameters of the summaries, if irrelevant regions send them.
     pub(super) periphery: Option<Periphery>,
     /// The thresholds, if they are constants of the core.
-    constants: Option<ThresholdInputs>,
+    constants: Option<ThresholdConstants>,
 }
 
 impl RpuParameters {
@@ -73,7 +73,7 @@ impl RpuParameters {
             irrelevant: design.irrelevant(),
             payload: design.payload(),
             periphery: design.periphery().copied(),
-            constants: ThresholdInputs::constants(&design),
+            constants: ThresholdConstants::of_design(&design),
         }
     }
 
@@ -85,8 +85,8 @@ impl RpuParameters {
     /// Returns the thresholds that the core uses: its constants if it has them, else the inputs.
     pub(super) fn effective_thresholds<'a>(
         &'a self,
-        applied: &'a ThresholdInputs,
-    ) -> &'a ThresholdInputs {
-        self.constants.as_ref().unwrap_or(applied)
+        applied: ClassThresholdInputs<'a>,
+    ) -> ClassThresholdInputs<'a> {
+        self.constants.as_ref().map_or(applied, ThresholdConstants::by_class)
     }
 }

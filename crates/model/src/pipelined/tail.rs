@@ -14,7 +14,7 @@
 //! With a second pass the decision after edge 8 is that of frame a, and its pixels leave while
 //! frame c comes in.
 
-use foveate_design::{Payload, RegionAction};
+use foveate_design::{Payload, RegionAction, RegionClass};
 
 use super::frame_store::RegionFrameStore;
 use super::pixel::{StagePixel, TailStep};
@@ -24,7 +24,7 @@ use super::rpu_parameters::RpuParameters;
 use super::scores::RpuScores;
 use super::tail_summary::TailSummary;
 use super::temporal_counters::TemporalCounters;
-use crate::ThresholdInputs;
+use crate::thresholds::ClassThresholdInputs;
 
 /// The part of an RPU behind the windows.
 #[derive(Clone, Debug)]
@@ -40,6 +40,10 @@ struct TailRegisters {
     position: usize,
     /// True if the last edge had the last tail step of a frame.
     done: bool,
+    /// The class of the region in the frame of the last tail step.
+    class: RegionClass,
+    /// The class of the region in the frame before it.
+    class_before: RegionClass,
     scores: RpuScores,
     temporal: TemporalCounters,
     periphery: TailSummary,
@@ -64,7 +68,7 @@ impl RpuTail {
         &mut self,
         plan: &RpuParameters,
         step: Option<&TailStep>,
-        thresholds: &ThresholdInputs,
+        thresholds: ClassThresholdInputs<'_>,
     ) {
         if self.registers.done {
             self.finish(plan, thresholds);
@@ -78,14 +82,15 @@ impl RpuTail {
 
     /// Applies the edge that ends the clock of a decision. The registers take the combinational
     /// values before the tail step of the next frame, which can be at the same edge.
-    fn finish(&mut self, plan: &RpuParameters, thresholds: &ThresholdInputs) {
+    fn finish(&mut self, plan: &RpuParameters, thresholds: ClassThresholdInputs<'_>) {
         let decision = self.decision(plan, thresholds);
+        let class = self.decided_class(plan);
         let registers = &mut self.registers;
         registers.held_count = registers.temporal.final_count(plan, decision);
         registers.temporal.finish(plan, decision);
         registers.scores.finish(plan);
         registers.active = decision.is_some_and(RelevanceBits::is_active);
-        registers.periphery.finish(plan, decision, thresholds.summary_level);
+        registers.periphery.finish(plan, decision, thresholds.summary_level(class));
         if registers.active {
             self.store.send_decided(plan);
         }
@@ -93,7 +98,12 @@ impl RpuTail {
     }
 
     /// Applies a tail step.
-    fn take_step(&mut self, plan: &RpuParameters, step: &TailStep, thresholds: &ThresholdInputs) {
+    fn take_step(
+        &mut self,
+        plan: &RpuParameters,
+        step: &TailStep,
+        thresholds: ClassThresholdInputs<'_>,
+    ) {
         let Self { store, registers } = self;
         let position = registers.position;
         let last = position + 1 == plan.pixels;
@@ -106,8 +116,15 @@ impl RpuTail {
         let leaving = registers.active.then(|| payload(store.leaving_pixel(plan, position)));
         registers.forward = leaving.or_else(|| registers.periphery.leaving_mean(plan, position));
         registers.periphery.step(plan, payload(step.pixel));
-        registers.temporal.step(store, position, step.pixel.scored, thresholds.temporal_level);
-        registers.scores.step(plan, step, before, last, &thresholds.level);
+        if position == 0 {
+            registers.class_before = registers.class;
+            registers.class = step.class;
+        }
+        let level = thresholds.of(registers.class).temporal_level;
+        registers.temporal.step(store, position, step.pixel.scored, level);
+        // The second pass takes pixels of the frame before.
+        let levels = &thresholds.of(registers.class_before).level;
+        registers.scores.step(plan, step, before, last, levels);
         store.write(position, step.pixel);
         registers.position = if last { 0 } else { position + 1 };
         registers.done = last;
@@ -117,15 +134,22 @@ impl RpuTail {
     fn decision(
         &self,
         plan: &RpuParameters,
-        thresholds: &ThresholdInputs,
+        thresholds: ClassThresholdInputs<'_>,
     ) -> Option<RelevanceBits> {
         // With a second pass, the first frame that is done only starts the second pass.
         let valid =
             self.registers.done && (!plan.second_pass || self.registers.temporal.has_previous);
         valid.then(|| {
             let scores = self.registers.scores.port_scores(plan);
-            RelevanceBits::from_scores(plan, &scores, self.temporal_count(plan), thresholds)
+            let (class, count) = (self.decided_class(plan), self.temporal_count(plan));
+            RelevanceBits::from_scores(plan, &scores, count, thresholds.of(class)).of_class(class)
         })
+    }
+
+    /// Returns the class of the region in the frame that is decided in this clock, in which the frame
+    /// of the last tail step is complete.
+    fn decided_class(&self, plan: &RpuParameters) -> RegionClass {
+        if plan.second_pass { self.registers.class_before } else { self.registers.class }
     }
 
     fn temporal_count(&self, plan: &RpuParameters) -> u32 {
@@ -140,7 +164,7 @@ impl RpuTail {
     pub(super) fn set_output(
         &self,
         plan: &RpuParameters,
-        thresholds: &ThresholdInputs,
+        thresholds: ClassThresholdInputs<'_>,
         output: &mut RpuOutput,
     ) {
         let decision = self.decision(plan, thresholds);
@@ -149,7 +173,7 @@ impl RpuTail {
         output.trs = decision.is_some_and(|decision| decision.trs);
         output.active = decision.is_some_and(RelevanceBits::is_active);
         output.summary = decision.is_some_and(|decision| {
-            let level = thresholds.summary_level;
+            let level = thresholds.summary_level(self.decided_class(plan));
             self.registers.periphery.action(plan, decision, level) == RegionAction::Summarize
         });
         output.scores = self.registers.scores.port_scores(plan);

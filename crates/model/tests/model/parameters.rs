@@ -174,9 +174,10 @@ impl DesignParameters {
 
     /// Returns the camera, for which no organization has to have its features.
     pub(crate) fn camera(&self) -> Camera {
-        let mut config = self.config().camera;
-        config.zones = self.zones.as_ref().map(|zones| self.zones_config(zones));
-        config.validate().unwrap_or_else(|e| panic!("{e}\n{}\n{:?}", self.toml(), self.zones))
+        self.config()
+            .camera
+            .validate()
+            .unwrap_or_else(|e| panic!("{e}\n{}\n{:?}", self.toml(), self.zones))
     }
 
     fn zones_config(&self, zones: &ZoneParameters) -> ZonesConfig {
@@ -200,6 +201,7 @@ impl DesignParameters {
                 },
                 periphery: KeenPeripheryConfig { level: summaries(zones.summary_level) },
             },
+            ..ZonesConfig::default()
         }
     }
 
@@ -211,7 +213,10 @@ impl DesignParameters {
     /// Returns the configuration of the pipelined design.
     pub(crate) fn config(&self) -> DesignConfig {
         let toml = self.toml();
-        DesignConfig::from_toml(&toml).unwrap_or_else(|e| panic!("{e}\n{toml}"))
+        let config = DesignConfig::from_toml(&toml);
+        let mut config = config.unwrap_or_else(|e| panic!("{e}\n{toml}"));
+        config.camera.zones = self.zones.as_ref().map(|zones| self.zones_config(zones));
+        config
     }
 
     fn toml(&self) -> String {
@@ -273,7 +278,19 @@ pub(crate) fn arbitrary_cameras() -> impl Strategy<Value = DesignParameters> {
 
 /// Generates every kind of camera with zones, with frames of about three regions.
 pub(crate) fn arbitrary_zoned_cameras() -> impl Strategy<Value = DesignParameters> {
-    arbitrary_cameras().prop_flat_map(|recipe| {
+    with_zones(arbitrary_cameras())
+}
+
+/// Generates every kind of pipelined design with zones, with frames of about three regions.
+pub(crate) fn arbitrary_zoned_parameters() -> impl Strategy<Value = DesignParameters> {
+    with_zones(arbitrary_parameters())
+}
+
+/// Adds zones to designs.
+fn with_zones(
+    recipes: impl Strategy<Value = DesignParameters>,
+) -> impl Strategy<Value = DesignParameters> {
+    recipes.prop_flat_map(|recipe| {
         let (side, bits, max) = (recipe.side, recipe.bits, recipe.pixel_max());
         let keen = |own: &FeatureParameters| {
             arbitrary_feature(own.name, side, bits, own.fraction_bits)

@@ -2,22 +2,22 @@
 //! Tests that the cycle-level model shows the outputs of the schedule and the oracle after every
 //! edge, and that its decisions are those of the functional model.
 
-use foveate_design::{PipelinedTiming, RegionAction};
+use foveate_design::{PipelinedTiming, RegionAction, RegionClass};
 use foveate_frame::Frame;
 use foveate_model::{
-    CoreInput, FunctionalCamera, PipelinedRcm, RpuOutput, ThresholdInputs, region_pixels,
-    region_stream,
+    CoreInput, FunctionalCamera, PipelinedRcm, RpuOutput, ThresholdInputs, ZoneInputs,
+    region_pixels, region_stream,
 };
 use proptest::prelude::*;
 
 use crate::frames::{SeededRandom, arbitrary_scripts, make_clip};
-use crate::oracle::oracle_history;
+use crate::oracle::{OracleOutcome, oracle_history, oracle_history_with_maps};
 use crate::parameters::{DesignParameters, arbitrary_parameters};
-use crate::schedule::{ExpectedOutput, expected_outputs, tail_steps};
+use crate::schedule::{ExpectedOutput, expected_outputs, tail_delay, tail_steps};
 
 /// The pattern of pixels and gaps of a stream.
 #[derive(Clone, Copy, Debug)]
-struct GapPattern {
+pub(crate) struct GapPattern {
     /// Percentage of clocks inside a frame without a pixel.
     inside: i64,
     /// Longest gap between frames in clocks.
@@ -25,7 +25,7 @@ struct GapPattern {
     seed: u64,
 }
 
-fn gaps() -> impl Strategy<Value = GapPattern> {
+pub(crate) fn gaps() -> impl Strategy<Value = GapPattern> {
     let inside = prop_oneof![Just(0), Just(0), 1i64..80];
     let between = prop_oneof![Just(0), 0i64..30];
     (inside, between, any::<u64>()).prop_map(|(inside, between, seed)| GapPattern {
@@ -56,16 +56,23 @@ fn stream_edges(recipe: &DesignParameters, gaps: GapPattern, frames: usize) -> V
     edges
 }
 
-/// Streams a clip, and returns the outputs of every region after every edge.
+/// The classes of the regions at each edge.
+type ClassesByEdge = Vec<Vec<RegionClass>>;
+
+/// Streams a clip, and returns the outputs of every region after every edge. A design with zones
+/// gets classes at each edge.
 fn run(
     recipe: &DesignParameters,
     rcm: &mut PipelinedRcm,
     clip: &[Frame],
     edges: &[Vec<usize>],
     clocks: usize,
+    classes: Option<&ClassesByEdge>,
 ) -> Vec<Vec<RpuOutput>> {
     let design = recipe.design();
     let thresholds = ThresholdInputs::from_camera(&design);
+    let keen = ThresholdInputs::of_class(&design, RegionClass::Keen);
+    let off_summary_level = ThresholdInputs::of_class(&design, RegionClass::Off).summary_level;
     let streams: Vec<Vec<Vec<u16>>> = clip
         .iter()
         .map(|frame| {
@@ -92,7 +99,13 @@ fn run(
         let pixels = now.map_or(idle, |(_, frame, place)| {
             streams[frame].iter().map(|stream| stream[place]).collect()
         });
-        let input = CoreInput { valid: now.is_some(), ..CoreInput::idle(&pixels, &thresholds) };
+        let zones = classes.map(|classes| ZoneInputs {
+            classes: &classes[clock],
+            keen: &keen,
+            off_summary_level,
+        });
+        let valid = now.is_some();
+        let input = CoreInput { valid, zones, ..CoreInput::idle(&pixels, &thresholds) };
         shown.push(rcm.step(&input).to_vec());
     }
     shown
@@ -119,24 +132,61 @@ pub(crate) fn check_dense(recipe: &DesignParameters, rcm: &mut PipelinedRcm, cli
 }
 
 fn check(recipe: &DesignParameters, rcm: &mut PipelinedRcm, clip: &[Frame], gaps: GapPattern) {
-    let design = recipe.design();
     let edges = stream_edges(recipe, gaps, clip.len());
-    let steps = tail_steps(recipe, &edges);
-    let last = edges.iter().flatten().max().unwrap();
-    let clocks = last
-        + PipelinedTiming::from_design(design.as_pipelined().unwrap()).decision_latency as usize
-        + 5;
-    let shown = run(recipe, rcm, clip, &edges, clocks);
-    let history = oracle_history(recipe, clip);
-    for region in 0..design.regions() as usize {
-        let expected = expected_outputs(recipe, &history, &steps, region, clocks);
+    let clocks = clocks_of_stream(recipe, &edges);
+    let shown = run(recipe, rcm, clip, &edges, clocks, None);
+    assert_ports(recipe, &oracle_history(recipe, clip), &edges, &shown);
+    check_against_camera(recipe, clip, &shown);
+    check_latency(recipe, gaps, clip, &shown);
+}
+
+/// Checks every port of a design with zones after every edge. The class of a frame is on `zone_i`
+/// at the first edge at which the stage before the tail steps, and at all other edges `zone_i` has
+/// random values.
+pub(crate) fn check_with_maps(
+    recipe: &DesignParameters,
+    clip: &[Frame],
+    maps: &[Vec<u8>],
+    gaps: GapPattern,
+) {
+    let edges = stream_edges(recipe, gaps, clip.len());
+    let clocks = clocks_of_stream(recipe, &edges);
+    let mut random = SeededRandom(gaps.seed);
+    let mut any_class = || RegionClass::from_code(random.below(4) as u8).unwrap();
+    let regions = recipe.design().regions() as usize;
+    let mut classes: ClassesByEdge =
+        (0..clocks).map(|_| (0..regions).map(|_| any_class()).collect()).collect();
+    for (steps, map) in tail_steps(recipe, &edges).iter().zip(maps) {
+        let of_code = |&code: &u8| RegionClass::from_code(code).unwrap();
+        classes[steps[0] - tail_delay(recipe)] = map.iter().map(of_code).collect();
+    }
+    let mut rcm = PipelinedRcm::new(recipe.design().as_pipelined().unwrap());
+    let shown = run(recipe, &mut rcm, clip, &edges, clocks, Some(&classes));
+    assert_ports(recipe, &oracle_history_with_maps(recipe, maps, clip), &edges, &shown);
+}
+
+/// Returns the clocks from the first edge until all decisions of a stream are made.
+fn clocks_of_stream(recipe: &DesignParameters, edges: &[Vec<usize>]) -> usize {
+    let timing = PipelinedTiming::from_design(recipe.design().as_pipelined().unwrap());
+    edges.iter().flatten().max().unwrap() + timing.decision_latency as usize + 5
+}
+
+/// Checks every port of every region after every edge.
+fn assert_ports(
+    recipe: &DesignParameters,
+    history: &[OracleOutcome],
+    edges: &[Vec<usize>],
+    shown: &[Vec<RpuOutput>],
+) {
+    let steps = tail_steps(recipe, edges);
+    let clocks = shown.len();
+    for region in 0..recipe.design().regions() as usize {
+        let expected = expected_outputs(recipe, history, &steps, region, clocks);
         for (edge, (shown, expected)) in shown.iter().zip(&expected).enumerate() {
             let observed = observed_output(recipe, &shown[region]);
             assert_eq!(&observed, expected, "region {region} after edge {edge}");
         }
     }
-    check_against_camera(recipe, clip, &shown);
-    check_latency(recipe, gaps, clip, &shown);
 }
 
 /// Checks that the decisions are those of the functional model in order, and that the pixels that
@@ -239,7 +289,7 @@ proptest! {
         let clip_before = make_clip(&recipe, &before);
         let edges = stream_edges(&recipe, gaps, before.len());
         let end = edges.iter().flatten().max().unwrap() + 20;
-        run(&recipe, &mut rcm, &clip_before, &edges, cut as usize % end);
+        run(&recipe, &mut rcm, &clip_before, &edges, cut as usize % end, None);
         let pixels = vec![1; design.regions() as usize];
         for edge in 0..held {
             // A pixel at an edge with reset is not taken.

@@ -12,7 +12,10 @@ use proptest::prelude::*;
 use crate::frames::{SeededRandom, arbitrary_scripts, make_clip};
 use crate::functional_properties::assert_outcome_is;
 use crate::oracle::oracle_history_with_maps;
-use crate::parameters::{DesignParameters, arbitrary_cameras, arbitrary_zoned_cameras};
+use crate::parameters::{
+    DesignParameters, arbitrary_cameras, arbitrary_zoned_cameras, arbitrary_zoned_parameters,
+};
+use crate::pipelined_properties::{check_with_maps, gaps};
 
 /// Returns one map per frame. A map changes in half of the frames, and then in about half of the
 /// regions.
@@ -59,6 +62,17 @@ proptest! {
             let again = oracle_history_with_maps(&recipe, from_ref(map), from_ref(frame));
             assert_outcome_is(&recipe, camera.step(frame).unwrap(), &again[0]);
         }
+    }
+
+    #[test]
+    fn the_pipelined_organization_equals_the_oracle_after_every_edge(
+        recipe in arbitrary_zoned_parameters(),
+        script in arbitrary_scripts(6),
+        seed in any::<u64>(),
+        gaps in gaps(),
+    ) {
+        let frames = make_clip(&recipe, &script);
+        check_with_maps(&recipe, &frames, &arbitrary_maps(&recipe, frames.len(), seed), gaps);
     }
 
     #[test]

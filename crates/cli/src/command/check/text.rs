@@ -3,7 +3,9 @@
 
 use std::fmt::Write;
 
-use foveate_design::{Design, Hardware, Neighborhood, Periphery, RasterDesign, RasterMemory};
+use foveate_design::{
+    Design, Hardware, Neighborhood, Periphery, RasterDesign, RasterMemory, RegionClass,
+};
 
 use super::array::{LaneArray, LaneMemoryFigures};
 use super::card::{DesignCard, FeatureRow, PortRow};
@@ -41,6 +43,7 @@ pub(super) fn text(design: &Design, card: &DesignCard) -> String {
     lines.push(("temporal", temporal_line(design)));
     lines.push(("SRS", format!("{} of the features", design.combine())));
     lines.extend(design.periphery().map(|own| ("periphery", periphery_line(own))));
+    lines.extend(zone_lines(design));
     lines.push(("organization", design.config().hardware.description()));
     match design.hardware() {
         Hardware::Raster(own) => {
@@ -102,6 +105,48 @@ fn periphery_line(own: &Periphery) -> String {
     format!("{means} where SRS is 0, sent again when one differs by more than {}", own.level)
 }
 
+/// Returns the lines about zones: the regions of each class, and the thresholds that differ from
+/// those of normal regions.
+fn zone_lines(design: &Design) -> Vec<(&'static str, String)> {
+    let Some(zones) = design.zones() else { return Vec::new() };
+    let classes = zones.configured_classes();
+    let count = |class| classes.iter().filter(|&&own| own == class).count();
+    let counts = RegionClass::ALL.iter().map(|&class| format!("{} {class}", count(class)));
+    let mut lines = vec![("zones", counts.collect::<Vec<_>>().join(", ") + " regions")];
+    let (own, keen) =
+        (design.class_thresholds(RegionClass::Normal), design.class_thresholds(RegionClass::Keen));
+    let mut differences = Vec::new();
+    for (own, keen) in own.features.iter().zip(keen.features) {
+        let kind = keen.kind();
+        if let (Some(level), true) = (keen.level(), keen.level() != own.level()) {
+            differences.push(format!("{kind} level {level}"));
+        }
+        if keen.min_score() != own.min_score() {
+            differences.push(format!("{kind} votes from {} on", keen.min_score()));
+        }
+    }
+    if keen.temporal_level != own.temporal_level {
+        differences.push(format!("temporal level {}", keen.temporal_level));
+    }
+    if keen.min_count != own.min_count {
+        differences.push(format!("TRS from {} on", keen.min_count));
+    }
+    if let (Some(level), true) = (keen.summary_level, keen.summary_level != own.summary_level) {
+        differences.push(format!("means differ by more than {level}"));
+    }
+    lines.push((
+        "keen",
+        match differences.is_empty() {
+            true => "the thresholds of normal regions".to_owned(),
+            false => differences.join(", "),
+        },
+    ));
+    if let Some(level) = design.class_thresholds(RegionClass::Off).summary_level {
+        lines.push(("off", format!("means are sent again when one differs by more than {level}")));
+    }
+    lines
+}
+
 fn stream_line(design: &Design, card: &DesignCard) -> String {
     let halo = match design.neighborhood() {
         Neighborhood::Isolated => String::new(),
@@ -144,11 +189,15 @@ fn memory_line(design: &Design, memory: &LaneMemoryFigures) -> String {
 }
 
 fn push_ports(text: &mut String, module: &str, rows: &[PortRow]) {
+    /// The width of names, unless one is longer.
+    const NAME_WIDTH: usize = 18;
+    let longest = rows.iter().map(|row| row.name.len()).max().unwrap_or_default();
+    let width = longest.max(NAME_WIDTH);
     let _ = writeln!(text, "\nports of {module}");
     for row in rows {
         let lanes = if row.lanes == 1 { String::new() } else { format!("{} x ", row.lanes) };
         let bits = format!("{lanes}{}", row.width);
-        let start = format!("  {:<6} {bits:>10}  {:<18} ", row.direction, row.name);
+        let start = format!("  {:<6} {bits:>10}  {:<width$} ", row.direction, row.name);
         push_wrapped(text, &start, &row.doc);
     }
 }

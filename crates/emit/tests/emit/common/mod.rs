@@ -73,6 +73,11 @@ pub(crate) fn pipelined_matrix() -> Vec<String> {
                 5 => format!("[periphery]\nblocks = {}\n", most_blocks(size)),
                 _ => String::new(),
             };
+            let zones = match ((index + choice / 2) % 2, irrelevant) {
+                (0, _) => "",
+                (_, "mean") => "[zones]\noff_level = 1\nkeen = { temporal = { min_count = 2 } }\n",
+                _ => "[zones]\nkeen = { temporal = { min_count = 2 } }\n",
+            };
             list.push(format!(
                 "spatial = {features}\n\
                  [frame]\nwidth = {width}\nheight = {size}\npixel_bits = {depth}\n\
@@ -80,7 +85,7 @@ pub(crate) fn pipelined_matrix() -> Vec<String> {
                  [denoise]\nfilter = '{filter}'\n\
                  [temporal]\nlevel = 0\nmin_count = 1\nreference = '{reference}'\n\
                  [render]\npayload = '{payload}'\nirrelevant = '{irrelevant}'\n\
-                 [hardware]\npipelining = '{pipelining}'\nthresholds = '{thresholds}'\nsync = {sync}\n{periphery}",
+                 [hardware]\npipelining = '{pipelining}'\nthresholds = '{thresholds}'\nsync = {sync}\n{periphery}{zones}",
                 width = 2 * size,
                 neighborhood = pick(0, "isolated", "shared"),
                 filter = pick(1, WINDOW_FILTERS[(index + choice) % WINDOW_FILTERS.len()], "none"),

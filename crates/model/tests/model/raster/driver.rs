@@ -119,6 +119,7 @@ impl RasterDriver {
                 forward_ready,
                 thresholds: &thresholds,
                 border: 0,
+                zones: None,
             };
             self.rcm.step(&input);
         }
@@ -199,6 +200,7 @@ impl RasterDriver {
             forward_ready,
             thresholds,
             border: 0,
+            zones: None,
         };
         let shown = self.rcm.step(&input).clone();
         self.memory.store(&shown);

@@ -43,6 +43,7 @@ pub(super) fn simulate(
             forward_ready,
             thresholds: &thresholds,
             border: 0,
+            zones: None,
         };
         outputs.push(rcm.step(&input).clone());
     }
@@ -259,6 +260,7 @@ fn frames_have_numbers() {
             forward_ready,
             thresholds: &thresholds,
             border: 0,
+            zones: None,
         };
         let output = rcm.step(&input);
         decided += usize::from(output.decision_valid);
@@ -291,6 +293,7 @@ fn after_a_reset_nothing_is_shown() {
         forward_ready: false,
         thresholds: &thresholds,
         border: 0,
+        zones: None,
     };
     // A decision, a word and a loss are on the ports.
     for _ in 0..152 {

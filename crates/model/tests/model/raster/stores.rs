@@ -84,6 +84,7 @@ impl StoreBench {
                 forward_ready: true,
                 thresholds: &self.thresholds,
                 border: 0,
+                zones: None,
             };
             let shown = self.rcm.step(&input).clone();
             self.queue.extend(shown.store_valid.then(|| shown.store_pixels.clone()));
@@ -103,6 +104,7 @@ impl StoreBench {
             forward_ready: true,
             thresholds: &self.thresholds,
             border: 0,
+            zones: None,
         };
         self.outputs = vec![self.rcm.step(&input).clone()];
         self.queue.clear();

@@ -98,6 +98,7 @@ impl AnyArray {
                     forward_ready: true,
                     thresholds,
                     border: 0,
+                    zones: None,
                 });
                 let decided = shown.decision_valid.then_some(ArrayDecision {
                     region: shown.region,
