@@ -38,6 +38,7 @@ class Design:
         temporal: Optional[_Section] = None,
         render: Optional[_Section] = None,
         periphery: Optional[_Section] = None,
+        zones: Optional[_Section] = None,
         hardware: Optional[_Section] = None,
     ) -> Design: ...
     @property
@@ -118,12 +119,17 @@ class Camera:
         temporal: Optional[_Section] = None,
         render: Optional[_Section] = None,
         periphery: Optional[_Section] = None,
+        zones: Optional[_Section] = None,
         hardware: Optional[_Section] = None,
     ) -> Camera: ...
     @property
     def design(self) -> Design: ...
     @property
     def frames(self) -> int: ...
+    @property
+    def zones(self) -> Optional[NDArray[np.uint8]]: ...
+    @zones.setter
+    def zones(self, classes: Any, /) -> None: ...
     def step(self, frame: Any, /, *, time_us: Optional[int] = None, keep: bool = False) -> Outcome: ...
     def reset(self) -> None: ...
     def generate(self, folder: _PathLike, *, force: bool = False, prefix: str | None = None) -> list[Path]: ...
@@ -149,6 +155,7 @@ class TimedCamera:
         temporal: Optional[_Section] = None,
         render: Optional[_Section] = None,
         periphery: Optional[_Section] = None,
+        zones: Optional[_Section] = None,
         hardware: Optional[_Section] = None,
     ) -> TimedCamera: ...
     @property

@@ -3,8 +3,10 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 
-use foveate_design::DesignConfig;
+use foveate_design::{DesignConfig, RegionClass};
 use foveate_engine::{Engine, EngineOptions, MAX_THREADS};
+use numpy::ndarray::Array2;
+use numpy::{IntoPyArray, PyArray2};
 use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -27,7 +29,7 @@ use crate::tools;
 ///     configuration. The default is the paper's design.
 /// threads : int, default 1
 ///     Number of threads of a step, up to 256; 0 takes one per processor. Results do not depend on it.
-/// frame, region, denoise, decision, temporal, render, periphery, hardware : dict, optional
+/// frame, region, denoise, decision, temporal, render, periphery, zones, hardware : dict, optional
 ///     Keys to change, as in the file: `region={"size": 16}`.
 /// spatial : str, dict or list of these, optional
 ///     The features: `"mad"`, `{"feature": "edge", "level": 50}`, or a list.
@@ -38,6 +40,10 @@ use crate::tools;
 ///     The design. If the configuration gives no frame size, it has the size of the first frame.
 /// frames : int
 ///     Number of frames since the camera was made or reset.
+/// zones : array of shape (rows, columns), uint8, or None
+///     The class of each region from the next frame on: 0 normal, 1 off, 2 keen, 3 always; None if the design has no
+///     zones (`zones={}` gives it zones). Assign an array of this shape to change it. A reset keeps it; a first frame of
+///     another size starts with the areas of the configuration.
 ///
 /// Notes
 /// -----
@@ -89,6 +95,18 @@ struct SizedEngine {
     engine: Engine,
 }
 
+impl SizedEngine {
+    fn new(design: foveate_design::Design, threads: usize) -> PyResult<Self> {
+        let options = EngineOptions { threads, ..EngineOptions::default() };
+        let engine = Engine::with_options(&design, options).map_err(raise)?;
+        Ok(Self { design: Arc::new(design), engine })
+    }
+}
+
+/// The message of a camera that has no size yet.
+const NO_SIZE: &str = "this camera has no size yet: it takes that of its first frame, so show it one, or give the size, \
+                       frame={\"width\": 640, \"height\": 480}";
+
 /// The state of a camera.
 struct CameraState {
     /// The engine, which is kept after a reset for frames of the same size.
@@ -128,10 +146,7 @@ impl Camera {
     pub(crate) fn sized(&self) -> PyResult<Design> {
         let frame = &self.config.camera.frame;
         if self.frames()? == 0 && (frame.width.is_none() || frame.height.is_none()) {
-            return Err(PyValueError::new_err(
-                "this camera has no size yet: it takes that of its first frame, so show it one, or give the size, \
-                 frame={\"width\": 640, \"height\": 480}",
-            ));
+            return Err(PyValueError::new_err(NO_SIZE));
         }
         self.design()
     }
@@ -169,7 +184,7 @@ pub(crate) fn lock_camera<'a, T>(state: &'a Mutex<T>, class: &str) -> PyResult<M
 #[pymethods]
 impl Camera {
     #[new]
-    #[pyo3(signature = (config=None, /, *, threads=Threads(1), **sections), text_signature = "(config=None, /, *, threads=1, frame=None, region=None, denoise=None, spatial=None, decision=None, temporal=None, render=None, periphery=None, hardware=None)")]
+    #[pyo3(signature = (config=None, /, *, threads=Threads(1), **sections), text_signature = "(config=None, /, *, threads=1, frame=None, region=None, denoise=None, spatial=None, decision=None, temporal=None, render=None, periphery=None, zones=None, hardware=None)")]
     fn new(
         config: Option<&Bound<'_, PyAny>>,
         threads: Threads,
@@ -196,6 +211,34 @@ impl Camera {
     #[getter]
     fn frames(&self) -> PyResult<u64> {
         Ok(self.lock_state()?.frames)
+    }
+
+    /// The class of each region, as an array of shape (rows, columns); None if the design has no zones.
+    #[getter]
+    fn zones<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArray2<u8>>>> {
+        if self.config.camera.zones.is_none() {
+            return Ok(None);
+        }
+        let mut state = self.lock_state()?;
+        let SizedEngine { design, engine } = state.engine_of(self)?;
+        let codes = engine.classes().iter().map(|class| class.code()).collect();
+        let shape = (design.rows() as usize, design.columns() as usize);
+        let codes = Array2::from_shape_vec(shape, codes).expect("a class for each region");
+        Ok(Some(codes.into_pyarray(py)))
+    }
+
+    /// Set the class of each region from the next frame on.
+    #[setter]
+    fn set_zones(&self, classes: &Bound<'_, PyAny>) -> PyResult<()> {
+        if self.config.camera.zones.is_none() {
+            return Err(PyValueError::new_err(
+                "this design has no zones; make the camera with zones={}",
+            ));
+        }
+        let mut state = self.lock_state()?;
+        let SizedEngine { design, engine } = state.engine_of(self)?;
+        let classes = classes_of(classes, (design.rows(), design.columns()))?;
+        engine.set_classes(&classes).map_err(raise)
     }
 
     /// Forget every frame. The next one is a first frame, and may have another size.
@@ -344,7 +387,46 @@ impl Camera {
     }
 }
 
+/// Returns the classes of an array of codes, row by row.
+fn classes_of(codes: &Bound<'_, PyAny>, (rows, columns): (u32, u32)) -> PyResult<Vec<RegionClass>> {
+    let numpy = codes.py().import("numpy")?;
+    let codes = numpy.call_method1("asarray", (codes,))?;
+    let expected = format!(
+        "zones takes an array of shape ({rows}, {columns}) of whole numbers: 0 normal, 1 off, 2 keen, 3 always"
+    );
+    let kind: String = codes.getattr("dtype")?.getattr("kind")?.extract()?;
+    if !matches!(kind.as_str(), "u" | "i") {
+        let given = codes.getattr("dtype")?;
+        return Err(PyTypeError::new_err(format!("{expected}; not of {given}")));
+    }
+    let shape: Vec<usize> = codes.getattr("shape")?.extract()?;
+    if shape != [rows as usize, columns as usize] {
+        let given = codes.getattr("shape")?;
+        return Err(PyValueError::new_err(format!("{expected}; not of shape {given}")));
+    }
+    let codes: Vec<i128> = codes.call_method0("ravel")?.call_method0("tolist")?.extract()?;
+    let class = |code: i128| {
+        let class = u8::try_from(code).ok().and_then(RegionClass::from_code);
+        class.ok_or_else(|| PyValueError::new_err(format!("{expected}; {code} is no class")))
+    };
+    codes.into_iter().map(class).collect()
+}
+
 impl CameraState {
+    /// Returns the engine of a camera, and makes it first if the configuration has the size of frames.
+    fn engine_of(&mut self, camera: &Camera) -> PyResult<&mut SizedEngine> {
+        if self.sized_engine.is_none() {
+            let frame = &camera.config.camera.frame;
+            if frame.width.is_none() || frame.height.is_none() {
+                return Err(PyValueError::new_err(NO_SIZE));
+            }
+            let design = camera.config.validate().map_err(raise)?;
+            self.sized_engine = Some(SizedEngine::new(design, camera.threads)?);
+            self.process = std::process::id();
+        }
+        Ok(self.sized_engine.as_mut().expect("it has just been made"))
+    }
+
     /// Prepares the camera for a frame, or refuses the frame.
     fn fit(&mut self, config: &DesignConfig, threads: usize, frame: &Grey<'_>) -> PyResult<()> {
         let own_size = self
@@ -359,10 +441,7 @@ impl CameraState {
             }
             frame.check_size(own_size.expect("it has seen a frame"))?;
         } else if own_size != Some(frame.size()) || self.process != std::process::id() {
-            let design = frame.design(config)?;
-            let options = EngineOptions { threads, ..EngineOptions::default() };
-            let engine = Engine::with_options(&design, options).map_err(raise)?;
-            self.sized_engine = Some(SizedEngine { design: Arc::new(design), engine });
+            self.sized_engine = Some(SizedEngine::new(frame.design(config)?, threads)?);
             self.process = std::process::id();
         }
         frame.check(config.camera.frame.pixel_bits)

@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use foveate_design::{DesignConfig, PRESETS, Preset};
+use foveate_footage::read_class_map;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString};
@@ -20,7 +21,32 @@ pub(crate) fn read(
 ) -> PyResult<DesignConfig> {
     let text = source.map_or(Ok(String::new()), toml_of)?;
     let overrides = sections.map_or(Ok(Vec::new()), overrides)?;
-    DesignConfig::from_toml_with(&text, &overrides).map_err(raise)
+    let mut config = DesignConfig::from_toml_with(&text, &overrides).map_err(raise)?;
+    if has_empty_zones(sections)? {
+        // A dict without keys is a table, too, and makes a camera with zones.
+        config.camera.zones.get_or_insert_default();
+    }
+    read_class_map(&mut config.camera, &map_folder(source, sections)?).map_err(raise)?;
+    Ok(config)
+}
+
+/// Returns the folder of a relative path in `zones.map`: that of the file, or the working folder for
+/// a path among the keys.
+fn map_folder(
+    source: Option<&Bound<'_, PyAny>>,
+    sections: Option<&Bound<'_, PyDict>>,
+) -> PyResult<PathBuf> {
+    let is_overridden = sections.map_or(Ok(false), |sections| sections.contains("zones"))?;
+    let file: Option<PathBuf> = source.and_then(|source| source.extract().ok());
+    let folder = file.filter(|_| !is_overridden).and_then(|file| file.parent().map(Path::to_owned));
+    Ok(folder.unwrap_or_default())
+}
+
+/// Returns true if `zones` is a dict without keys.
+fn has_empty_zones(sections: Option<&Bound<'_, PyDict>>) -> PyResult<bool> {
+    let Some(sections) = sections else { return Ok(false) };
+    let zones = sections.get_item("zones")?;
+    Ok(zones.is_some_and(|zones| zones.cast::<PyDict>().is_ok_and(|keys| keys.is_empty())))
 }
 
 /// Returns the TOML text of a preset, a TOML file, a mapping, a design or a camera.
@@ -57,7 +83,7 @@ fn toml_of(source: &Bound<'_, PyAny>) -> PyResult<String> {
 }
 
 /// The tables of a configuration that are arguments of cameras and designs. None changes nothing.
-const SECTIONS: [&str; 9] = [
+const SECTIONS: [&str; 10] = [
     "frame",
     "region",
     "denoise",
@@ -66,6 +92,7 @@ const SECTIONS: [&str; 9] = [
     "temporal",
     "render",
     "periphery",
+    "zones",
     "hardware",
 ];
 

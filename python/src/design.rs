@@ -17,7 +17,7 @@ use crate::tools;
 /// config : str, path, dict, Design or Camera, optional
 ///     The name of a preset (`foveate.presets()`), a TOML file, a dict of its tables, or an object with a
 ///     configuration. The default is the paper's design.
-/// frame, region, denoise, decision, temporal, render, periphery, hardware : dict, optional
+/// frame, region, denoise, decision, temporal, render, periphery, zones, hardware : dict, optional
 ///     Keys to change, as in the file: `region={"size": 16}`.
 /// spatial : str, dict or list of these, optional
 ///     The features: `"mad"`, `{"feature": "edge", "level": 50}`, or a list.
@@ -94,7 +94,7 @@ impl Design {
     #[pyo3(
         signature = (config=None, /, **sections),
         text_signature = "(config=None, /, *, frame=None, region=None, denoise=None, spatial=None, decision=None, \
-                          temporal=None, render=None, periphery=None, hardware=None)"
+                          temporal=None, render=None, periphery=None, zones=None, hardware=None)"
     )]
     fn made(
         config: Option<&Bound<'_, PyAny>>,

@@ -36,7 +36,7 @@ use crate::frame::{Grey, packed};
 /// sink_stalls : array of int, shape (stalls, 2), optional
 ///     Stalls of the sink, in place of a rate: the first clock at which it takes no word, and the number of these clocks.
 ///     They are in order and do not overlap.
-/// frame, region, denoise, decision, temporal, render, periphery, hardware : dict, optional
+/// frame, region, denoise, decision, temporal, render, periphery, zones, hardware : dict, optional
 ///     Keys to change, as in the file: `hardware={"organization": "raster"}`.
 /// spatial : str, dict or list of these, optional
 ///     The features: `"mad"`, `{"feature": "edge", "level": 50}`, or a list.
@@ -100,7 +100,7 @@ impl TimedCamera {
     #[pyo3(
         signature = (config=None, /, *, clock_hz=None, sink_rate=None, sink_stalls=None, **sections),
         text_signature = "(config=None, /, *, clock_hz=None, sink_rate=None, sink_stalls=None, frame=None, region=None, \
-                          denoise=None, spatial=None, decision=None, temporal=None, render=None, periphery=None, hardware=None)"
+                          denoise=None, spatial=None, decision=None, temporal=None, render=None, periphery=None, zones=None, hardware=None)"
     )]
     fn new(
         config: Option<&Bound<'_, PyAny>>,

@@ -25,7 +25,7 @@ def test_a_configuration_is_a_preset_a_file_a_dict_a_design_or_a_camera(tmp_path
 
 
 def test_a_table_that_is_none_changes_nothing():
-    keys = dict.fromkeys(["frame", "region", "denoise", "spatial", "decision", "temporal", "render", "periphery", "hardware"])
+    keys = dict.fromkeys(["frame", "region", "denoise", "spatial", "decision", "temporal", "render", "periphery", "zones", "hardware"])
     assert fv.Design("paper", **keys) == fv.Design("paper") == fv.Camera("paper", **keys).design
     with pytest.raises(ValueError, match="regions"):
         fv.Design(regions={})
@@ -332,3 +332,39 @@ def test_a_damaged_video_gives_what_there_is_and_warns(frames, tmp_path):
     with pytest.warns(UserWarning, match="clip.y4m"):
         outcomes = list(run)
     assert len(outcomes) == len(frames) - 1 and run.problem
+
+
+def test_zones_are_an_array_of_codes():
+    frames = np.random.default_rng(3).integers(0, 256, (4, 24, 32), "uint8")
+    plain, camera = fv.Camera(frame={"width": 32, "height": 24}), fv.Camera(frame={"width": 32, "height": 24}, zones={})
+    assert plain.zones is None and camera.zones.shape == (3, 4) and not camera.zones.any()
+    zones = np.zeros((3, 4), int)
+    zones[0], zones[2, 1] = 1, 3
+    camera.zones = zones
+    assert camera.zones.dtype == np.uint8 and (camera.zones == zones).all()
+    for frame in frames:
+        expected, outcome = plain.step(frame), camera.step(frame)
+        assert not outcome.srs[0].any() and outcome.srs[2, 1]
+        assert (outcome.srs[1] == expected.srs[1]).all() and (outcome.changed == expected.changed).all()
+    camera.reset()
+    assert (camera.zones == zones).all()
+    camera.zones = zones.tolist()
+    with pytest.raises(ValueError, match=r"shape \(3, 4\).*not of shape \(4, 3\)"):
+        camera.zones = zones.T
+    with pytest.raises(ValueError, match="4 is no class"):
+        camera.zones = zones + 3
+    with pytest.raises(TypeError, match="float64"):
+        camera.zones = zones * 1.0
+    with pytest.raises(ValueError, match="zones={}"):
+        plain.zones = zones
+    with pytest.raises(ValueError, match="no size yet"):
+        fv.Camera(zones={}).zones = zones
+
+
+def test_zones_of_a_configuration_are_those_of_its_areas():
+    keen = {"spatial": [{"feature": "edge", "min_score": 1}], "temporal": {"level": 2}}
+    areas = [{"class": "off", "rectangle": [0, 0, 32, 8]}, {"class": "keen", "polygon": [[16, 8], [32, 8], [32, 24], [16, 24]]}]
+    camera = fv.Camera(frame={"width": 32, "height": 24}, zones={"areas": areas, "keen": keen})
+    assert camera.zones.tolist() == [[1, 1, 1, 1], [0, 0, 2, 2], [0, 0, 2, 2]]
+    assert fv.Camera(camera.design).zones.tolist() == camera.zones.tolist()
+    assert pickle.loads(pickle.dumps(camera)).zones.tolist() == camera.zones.tolist()
