@@ -46,6 +46,13 @@ fn every_level_of_every_organization_agrees() {
     assert!(rtl["files_clocks_per_second"].as_f64().unwrap() > 0.0, "{rtl}");
     assert!(pipelined[3]["measured"]["times_rtl"].as_f64().unwrap() > 0.0);
 
+    // Every level follows the same map: a region that is off, one that is keen, and one that is always
+    // relevant.
+    let zones = "zones={classes=['12', '30'], keen={temporal={level=3}}}";
+    let zoned = rows(&["--set", zones, "--frames", "2"]);
+    zoned.iter().for_each(assert_agrees);
+    assert_eq!(levels(&zoned), levels_with_rtl);
+
     let raster = ["--set", "hardware.organization='raster'", "--set", "frame={width=40,height=40}"];
     let raster = rows(&[&raster[..], &["--frames", "2"]].concat());
     raster.iter().for_each(assert_agrees);

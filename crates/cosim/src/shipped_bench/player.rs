@@ -5,8 +5,8 @@ use super::script::{BenchFrame, BenchScript, BenchSequence, MIN_FRAMES_PER_SCRIP
 use super::vector_recorder::VectorRecorder;
 use crate::error::CosimError;
 use crate::stimulus::{
-    FrameFeed, FrameLimit, GapPattern, ModelDriver, Random, SequenceEnd, SequenceSurroundings,
-    SinkPattern, StoreFault, ThresholdAim, UnusedInputs,
+    ClassChoice, FrameFeed, FrameLimit, GapPattern, ModelDriver, Random, SequenceEnd,
+    SequenceSurroundings, SinkPattern, StoreFault, ThresholdAim, UnusedInputs,
 };
 use foveate_design::{Design, Hardware, RasterTiming};
 use foveate_emit::Top;
@@ -51,7 +51,7 @@ impl<'a> ScriptPlayer<'a> {
                 sink: (false, 0),
                 store_fault: store_fault(part),
                 border: region_border(part, 0),
-                changes_classes: false,
+                classes: ClassChoice::Normal,
             },
             gaps: gaps(part),
             frames_wait_for_sink: part.timing().departure().buffered_rows.is_none(),
@@ -66,11 +66,11 @@ impl<'a> ScriptPlayer<'a> {
                 continue;
             };
             if number == 0 {
-                self.begin(first, sequence.changes_classes)?;
+                self.begin(first, sequence.classes)?;
                 let limit = FrameLimit::Beat(DISCARDED_BEATS);
                 self.driver.send_frame(&first.frame, limit, GapPattern::None)?;
             }
-            self.begin(first, sequence.changes_classes)?;
+            self.begin(first, sequence.classes)?;
             self.play_frames(sequence)?;
             self.driver.end_sequence(sequence.end, &last.frame, self.gaps)?;
         }
@@ -78,9 +78,9 @@ impl<'a> ScriptPlayer<'a> {
     }
 
     /// Begins a sequence with a reset.
-    fn begin(&mut self, first: &BenchFrame, changes_classes: bool) -> Result<(), CosimError> {
+    fn begin(&mut self, first: &BenchFrame, classes: ClassChoice) -> Result<(), CosimError> {
         self.driver.configure_thresholds(first.thresholds);
-        self.driver.begin_sequence(SequenceSurroundings { changes_classes, ..self.surroundings })
+        self.driver.begin_sequence(SequenceSurroundings { classes, ..self.surroundings })
     }
 
     /// Plays the frames of a sequence; before an end with pixels that leave, up to the first one.
@@ -127,7 +127,7 @@ impl<'a> ScriptPlayer<'a> {
         else {
             return Ok(());
         };
-        self.begin(first, false)?;
+        self.begin(first, ClassChoice::Normal)?;
         for (shown, delivery) in &script.damaged {
             self.driver.send_damaged_frame(&shown.frame, *delivery, self.gaps)?;
         }

@@ -6,7 +6,8 @@ use super::drawn_places::DrawnPlaces;
 use super::drawn_region::{DrawnRegion, ThresholdPair, draw_region, flat_square, threshold_pair};
 use crate::situations::{has_sink, largest_min_count};
 use crate::stimulus::{
-    FrameDelivery, PatternGenerator, Random, SequenceEnd, SinkPattern, StimulusPattern, Texture,
+    ClassChoice, FrameDelivery, PatternGenerator, Random, SequenceEnd, SinkPattern,
+    StimulusPattern, Texture,
 };
 use foveate_design::{Design, FeatureKind, Neighborhood, ThresholdSource as Mode};
 use foveate_frame::Frame;
@@ -40,8 +41,8 @@ pub(super) struct BenchSequence {
     pub(super) frames: Vec<BenchFrame>,
     /// The state of the core at the reset that begins the next sequence.
     pub(super) end: SequenceEnd,
-    /// True if the classes of regions change, in a core with zones.
-    pub(super) changes_classes: bool,
+    /// The classes of the regions, in a core with zones.
+    pub(super) classes: ClassChoice,
 }
 
 impl BenchSequence {
@@ -51,7 +52,7 @@ impl BenchSequence {
     }
 
     fn ending_at(frames: Vec<BenchFrame>, end: SequenceEnd) -> Self {
-        Self { frames, end, changes_classes: false }
+        Self { frames, end, classes: ClassChoice::Normal }
     }
 }
 
@@ -107,7 +108,7 @@ impl BenchScript {
         if part.zones().is_some() {
             let frames = writer.wide_frames();
             let drained = BenchSequence::drained(frames);
-            sequences.push(BenchSequence { changes_classes: true, ..drained });
+            sequences.push(BenchSequence { classes: ClassChoice::Changing, ..drained });
         }
         Self { sequences, damaged: writer.damaged_frames() }
     }

@@ -50,6 +50,7 @@ pub(crate) use frame_generator::FrameGenerator;
 pub(crate) use gap_pattern::GapPattern;
 pub(crate) use model_driver::{FrameLimit, ModelDriver, SequenceSurroundings};
 pub(crate) use pattern_scorer::PatternScores;
+pub(crate) use port_zones::ClassChoice;
 pub(crate) use random::Random;
 pub(crate) use sequence_end::SequenceEnd;
 use session::{SequenceLimits, StimulusSession};

@@ -9,7 +9,7 @@ use super::frame_delivery::FrameDelivery;
 use super::frame_feed::FrameFeed;
 use super::gap_pattern::GapPattern;
 use super::port_thresholds::PortThresholds;
-use super::port_zones::PortZones;
+use super::port_zones::{ClassChoice, PortZones};
 use super::random::Random;
 use super::sink::{Sink, SinkPattern};
 use super::threshold_aimer::ThresholdAim;
@@ -48,8 +48,8 @@ pub(crate) struct SequenceSurroundings {
     pub(crate) store_fault: StoreFault,
     /// The sides at the frame's border, if these are an input.
     pub(crate) border: u8,
-    /// True if the classes of regions change, in a core with zones. Otherwise all are normal.
-    pub(crate) changes_classes: bool,
+    /// The classes of the regions, in a core with zones.
+    pub(crate) classes: ClassChoice,
 }
 
 impl SequenceSurroundings {
@@ -60,7 +60,7 @@ impl SequenceSurroundings {
             sink,
             store_fault: StoreFault::None,
             border,
-            changes_classes: true,
+            classes: ClassChoice::Configured,
         }
     }
 }
@@ -142,9 +142,9 @@ impl<'a, Receiver: ClockReceiver> ModelDriver<'a, Receiver> {
         &mut self,
         surroundings: SequenceSurroundings,
     ) -> Result<(), CosimError> {
-        let SequenceSurroundings { aim, sink, store_fault, border, changes_classes } = surroundings;
+        let SequenceSurroundings { aim, sink, store_fault, border, classes } = surroundings;
         let (stalls, turn) = sink;
-        self.thresholds.begin_sequence(aim, changes_classes);
+        self.thresholds.begin_sequence(aim, classes);
         if let Some(sink) = &mut self.sink {
             sink.set_pattern(sink.pattern_of_turn(stalls, turn));
         }

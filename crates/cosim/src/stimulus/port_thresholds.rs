@@ -2,7 +2,7 @@
 //! The thresholds at the ports of a core, clock by clock.
 
 use super::decision_predictor::DecisionPredictor;
-use super::port_zones::PortZones;
+use super::port_zones::{ClassChoice, PortZones};
 use super::random::Random;
 use super::threshold_aimer::{ThresholdAim, ThresholdAimer};
 use foveate_design::{Design, ThresholdSource as Mode};
@@ -56,9 +56,9 @@ impl<'a> PortThresholds<'a> {
     }
 
     /// Begins a sequence. Thresholds that are constants are always those of the design.
-    pub(super) fn begin_sequence(&mut self, aim: ThresholdAim, changes_classes: bool) {
+    pub(super) fn begin_sequence(&mut self, aim: ThresholdAim, classes: ClassChoice) {
         if let Some(zones) = &mut self.zones {
-            zones.begin_sequence(changes_classes);
+            zones.begin_sequence(classes);
         }
         self.aim = match self.design.threshold_source() {
             Mode::Constant if aim != ThresholdAim::Independent => ThresholdAim::Configured,

@@ -130,7 +130,7 @@ impl<'a> StimulusSession<'a> {
             sink: (sequence.sink_stalls, sink_turn),
             store_fault: sequence.store_fault,
             border: self.border(round + number),
-            changes_classes: sequence.aim.allows_classes(),
+            classes: sequence.aim.classes(),
         })?;
         for frame in 0..sequence.frame_count() {
             if frame > 0 {

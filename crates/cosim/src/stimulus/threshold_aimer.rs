@@ -2,6 +2,7 @@
 //! Thresholds that are aimed at data: at a frame that is to come and the scores that one of its
 //! regions will have, or at scores that are decided at this clock.
 
+use super::port_zones::ClassChoice;
 use super::random::Random;
 use super::threshold_ranges::ThresholdRanges;
 use foveate_design::{Design, FeatureKind};
@@ -38,12 +39,16 @@ pub(crate) enum ThresholdAim {
 }
 
 impl ThresholdAim {
-    /// Returns true if the classes of regions may change. Otherwise the purpose of the aim is that of
-    /// normal regions.
-    pub(super) fn allows_classes(self) -> bool {
+    /// Returns the classes of regions, which change unless the purpose of the aim is that of normal
+    /// regions.
+    pub(super) fn classes(self) -> ClassChoice {
         match self {
-            Self::Configured | Self::Exact | Self::Largest | Self::EveryClock => true,
-            Self::Smallest | Self::Independent | Self::HeldRegions | Self::DriftingRegions => false,
+            Self::Configured | Self::Exact | Self::Largest | Self::EveryClock => {
+                ClassChoice::Changing
+            }
+            Self::Smallest | Self::Independent | Self::HeldRegions | Self::DriftingRegions => {
+                ClassChoice::Normal
+            }
         }
     }
 }
