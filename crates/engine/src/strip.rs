@@ -82,10 +82,11 @@ pub(crate) struct BandStrip<'a, T: PixelLane> {
 impl<T: PixelLane> VectorTask for BandStrip<'_, T> {
     #[inline(always)]
     fn run(self) {
-        // The function is compiled twice, so that cameras without a periphery do not pay for it.
+        // The function is compiled twice, so that cameras without a periphery do not pay for it. A page
+        // in the browser has one copy, because it is loaded each time.
         match self.plan.periphery {
-            Some(_) => self.run_with::<true>(),
-            None => self.run_with::<false>(),
+            None if !cfg!(target_arch = "wasm32") => self.run_with::<false>(),
+            None | Some(_) => self.run_with::<true>(),
         }
     }
 }
@@ -156,16 +157,11 @@ impl<T: PixelLane> BandStrip<'_, T> {
             let current_means =
                 CurrentMeans { means: current_means, differences: mean_differences, affected };
             let mut sent = SentSummaries { is_shown: shown, means };
-            match &plan.zones {
-                None => {
-                    let level = |_| periphery.level;
-                    periphery.send_summaries(level, current_means, &mut sent, &mut results);
-                }
-                Some(zones) => {
-                    let level = |region| zones.summary_level(classes[region], periphery.level);
-                    periphery.send_summaries(level, current_means, &mut sent, &mut results);
-                }
-            }
+            let level = |region: usize| match &plan.zones {
+                None => periphery.level,
+                Some(zones) => zones.summary_level(classes[region], periphery.level),
+            };
+            periphery.send_summaries(level, current_means, &mut sent, &mut results);
         }
         let mut renderer = BandRenderer {
             screen: &mut self.screen[lines..],
