@@ -4,7 +4,7 @@
 # Installs what is missing.
 #
 #   scripts/board_parts.sh            every bench
-#    scripts/board_parts.sh --faults   also each fault of the list below, which a bench must find
+#   scripts/board_parts.sh --faults   also each fault of the list below, which a bench must find
 #   scripts/board_parts.sh NAME...    the benches of these leaves
 set -euo pipefail
 cd "$(dirname "$0")/.."

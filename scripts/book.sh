@@ -4,7 +4,7 @@
 # not list, and a resource that a reader's browser would load from the network. MkDocs comes from PyPI, see python_tools.sh.
 #
 #   scripts/book.sh            then open target/book/index.html
-#    scripts/book.sh --serve    at http://127.0.0.1:8000, rebuilt when a page changes
+#   scripts/book.sh --serve    at http://127.0.0.1:8000, rebuilt when a page changes
 set -euo pipefail
 cd "$(dirname "$0")/.."
 case ${1:-} in

@@ -5,7 +5,7 @@
 # Icarus and Rust.
 #
 #   scripts/buses.sh            all designs, and faults that the tests must find
-#    scripts/buses.sh --quick    the registers, and the first design
+#   scripts/buses.sh --quick    the registers, and the first design
 #
 # FOVEATE   the program (default: built here)
 set -euo pipefail

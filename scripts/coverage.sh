@@ -7,7 +7,7 @@
 #
 #   scripts/coverage.sh            all designs
 #   scripts/coverage.sh --quick    two of them
-#    scripts/coverage.sh NAME...    some of them; unused explanations are not an error then
+#   scripts/coverage.sh NAME...    some of them; unused explanations are not an error then
 set -euo pipefail
 cd "$(dirname "$0")/.."
 case ${1:-} in

@@ -4,9 +4,9 @@
 # Verilog. Installs missing tools.
 #
 #   scripts/formal.sh             everything
-#    scripts/formal.sh --quick     a small set, for every change, with the Yosys in PATH instead of that from PyPI
+#   scripts/formal.sh --quick     a small set, for every change, with the Yosys in PATH instead of that from PyPI
 #   scripts/formal.sh NAME...     some of formal/NAME.sby
-#    scripts/formal.sh --list      lists the proofs
+#   scripts/formal.sh --list      lists the proofs
 #
 # FOVEATE   an executable to use instead of the debug build
 # JOBS      number of parallel jobs (default: number of processors)

@@ -4,7 +4,7 @@
 # proven equivalent nor waived in mutation/survivors.txt with a reason. Any other survivor is an error, and so is an unused waiver.
 # Installs missing tools.
 #
-#    scripts/mutation.sh              all mutants
+#   scripts/mutation.sh              all mutants
 #   scripts/mutation.sh --sample 20  20 mutants of each organization, short vectors
 #   scripts/mutation.sh --help       all options
 #

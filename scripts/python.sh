@@ -4,7 +4,7 @@
 # programs of that environment. Its dependencies come from PyPI (python_tools.sh --package).
 #
 #   scripts/python.sh           build and install
-#    scripts/python.sh --test    also run its tests
+#   scripts/python.sh --test    also run its tests
 #
 # FOVEATE            an executable whose results those of the package must equal, instead of the debug build
 # FOVEATE_PACKAGE    the folder that this script printed before: the package is not built and installed again

