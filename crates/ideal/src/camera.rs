@@ -147,6 +147,9 @@ impl IdealCamera {
         let view = memory.frame_view(denoised, grid);
         score_frame(&rules.own, &view, scratch, (&mut outcome.scores, &mut outcome.changed));
         let Some(keen) = &rules.keen else { return };
+        if !classes.contains(&RegionClass::Keen) {
+            return;
+        }
         let ClassScores { scores, changed } = keen_scores;
         score_frame(keen, &view, scratch, (scores, changed));
         let keen_regions =
