@@ -40,13 +40,11 @@ impl BaseClasses {
             rows.len() == down as usize && rows.iter().all(|row| row.len() == across as usize)
         };
         let grid = (width.div_ceil(side), height.div_ceil(side));
-        // Without a size in the configuration the size is that of an input that is not known yet.
-        let is_sized = config.frame.width.is_some() && config.frame.height.is_some();
         if has_size(grid) {
             Ok(Self::OfRegions(rows))
         } else if has_size((width, height)) {
             Ok(Self::OfPixels(rows))
-        } else if !is_sized {
+        } else if !config.frame.has_size() {
             Ok(Self::Normal)
         } else {
             let longest = rows.iter().map(Vec::len).max().unwrap_or_default();
@@ -84,9 +82,8 @@ impl BaseClasses {
 
 /// Returns the text of the classes of the regions of a frame, row by row.
 pub(crate) fn text_of_classes(classes: &[RegionClass], columns: u32) -> Vec<String> {
-    let digit = |class: &RegionClass| char::from(b'0' + class.code());
     let rows = classes.chunks(columns as usize);
-    rows.map(|row| row.iter().map(digit).collect()).collect()
+    rows.map(|row| row.iter().map(|class| class.digit()).collect()).collect()
 }
 
 fn classes_of_row(row: usize, text: &str) -> Result<Vec<RegionClass>, ConfigError> {

@@ -52,8 +52,7 @@ pub(crate) fn check_areas(
     areas: &[AreaConfig],
     (width, height): (u32, u32),
 ) -> Result<(), ConfigError> {
-    // Without a size in the configuration the size is that of an input that is not known yet.
-    let is_sized = config.frame.width.is_some() && config.frame.height.is_some();
+    let is_sized = config.frame.has_size();
     for (index, area) in areas.iter().enumerate() {
         let key = |name| format!("zones.areas[{index}].{name}");
         let reaches = |x: u64, y: u64| is_sized && (x > width.into() || y > height.into());

@@ -90,6 +90,14 @@ pub struct FrameConfig {
     pub pixel_bits: u32,
 }
 
+impl FrameConfig {
+    /// Returns true if both sides are written. Otherwise the size may be that of an input that is not
+    /// known yet.
+    pub(crate) fn has_size(&self) -> bool {
+        self.width.is_some() && self.height.is_some()
+    }
+}
+
 impl Default for FrameConfig {
     fn default() -> Self {
         Self { width: None, height: None, pixel_bits: DEFAULT_BITS }

@@ -32,6 +32,12 @@ impl RegionClass {
         }
     }
 
+    /// Returns the number of the class as a digit, as `zones.classes` has it.
+    #[must_use]
+    pub fn digit(self) -> char {
+        char::from(b'0' + self.code())
+    }
+
     /// Returns the class with this number, or `None` if there is none.
     #[must_use]
     pub fn from_code(code: u8) -> Option<Self> {

@@ -26,12 +26,10 @@ pub fn read_class_map(config: &mut CameraConfig, folder: &Path) -> Result<(), Fo
 fn class_rows(path: &Path) -> Result<Vec<String>, FootageError> {
     let image = read_rgb(path)?;
     let digit = |(x, y, pixel): (u32, u32, &image::Rgb<u8>)| {
-        class_of_colour(pixel.0).map(|class| (y, char::from(b'0' + class.code()))).ok_or_else(
-            || {
-                let [red, green, blue] = pixel.0;
-                FootageError::ClassColour { path: path.to_owned(), x, y, red, green, blue }
-            },
-        )
+        class_of_colour(pixel.0).map(|class| (y, class.digit())).ok_or_else(|| {
+            let [red, green, blue] = pixel.0;
+            FootageError::ClassColour { path: path.to_owned(), x, y, red, green, blue }
+        })
     };
     let mut rows = vec![String::new(); image.height() as usize];
     for pixel in image.enumerate_pixels() {
