@@ -39,6 +39,7 @@ module raster_control #(
     output wire row_end_o,        // the word is the last of its row of the frame
     output wire region_top_o,     // the word is in the first row of its region
     output wire region_bottom_o,  // the word is in the last row of its region
+    output wire frame_ends_o,     // the advance is the last of the frame
     output wire frame_over_o      // a frame is over at this edge, and the next may begin
 );
 
@@ -184,6 +185,7 @@ module raster_control #(
     end
 
     assign step_o = step;
+    assign frame_ends_o = frame_ends;
     assign frame_over_o = settling_q && settled_q && !busy_i;
     assign pad_o = own_q;
     assign taken_end_o = taken_end_q;

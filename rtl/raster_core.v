@@ -46,6 +46,10 @@ module raster_core #(
     parameter FACTOR_BITS = 1,       // bits of FACTOR (MAD, SEGMENT)
     parameter [FACTOR_BITS-1:0] FACTOR = 1,  // (dividend * FACTOR) >> SHIFT divides by the pixels of a region (MAD, SEGMENT)
     parameter SHIFT = 6,             // bits of the product that are dropped (MAD, SEGMENT)
+    // Zones
+    parameter ZONES = 0,             // 1: regions have classes
+    parameter CLASS_ADDRESS_BITS = 1,  // bits of the number of a word of the map of classes (ZONES)
+    parameter [2*COLUMNS*ROWS-1:0] CLASSES = 0,  // the first map, region 0 in the lowest bits (ZONES)
     // Reference and its store
     parameter LAST_SENT = 0,         // 1: the reference is what was last sent; 0: the previous frame
     parameter BLANKS = 0,            // 1: a region without SRS loses its reference (LAST_SENT)
@@ -76,6 +80,19 @@ module raster_core #(
     input  wire [          WIDTH-1:0] temporal_level_i,    // a pixel has changed above this difference
     input  wire [          WIDTH-1:0] summary_level_i,     // a mean that differs by more than this level is sent again (BLOCKS)
     input  wire [     SCORE_BITS-1:0] minima_i,            // smallest value at which each score votes; the lowest bits belong to TRS
+    // Classes (ZONES), and the thresholds of keen regions and of those that are off
+    input  wire                       zone_write_i,        // a word of the map of classes is written
+    input  wire [CLASS_ADDRESS_BITS-1:0] zone_address_i,   // number of that word
+    input  wire [               31:0] zone_word_i,         // the word: 16 classes, the first one in the lowest bits
+    input  wire                       zone_commit_i,       // frames use the map that has been written
+    output wire                       zone_pending_o,      // the committed map is not in use yet
+    input  wire [EDGE_LEVEL_BITS-1:0] keen_edge_level_i,   // edge_level_i of keen regions
+    input  wire [          WIDTH-1:0] keen_corner_level_i, // corner_level_i of keen regions
+    input  wire [          WIDTH-1:0] keen_segment_level_i,  // segment_level_i of keen regions
+    input  wire [          WIDTH-1:0] keen_temporal_level_i, // temporal_level_i of keen regions
+    input  wire [          WIDTH-1:0] keen_summary_level_i,  // summary_level_i of keen regions
+    input  wire [          WIDTH-1:0] off_summary_level_i, // summary_level_i of regions that are off
+    input  wire [     SCORE_BITS-1:0] keen_minima_i,       // minima_i of keen regions
     // Decisions
     output wire                       decision_valid_o,    // the decision for region_o is on the ports
     output wire [    REGION_BITS-1:0] region_o,            // the region that is decided
@@ -199,7 +216,7 @@ module raster_core #(
     wire advance, pad, taken_end, repeated, in_tail;
     wire advance_segment_end, advance_row_end, advance_region_top, advance_region_bottom;
     wire [1:0] advance_left, advance_right, advance_top, advance_bottom;
-    wire busy, frame_over;
+    wire busy, frame_ends, frame_over;
 
     raster_control #(
         .ROW_WORDS(ROW_WORDS), .TAKEN_WORDS(TAKEN_WORDS), .ROWS(ROWS * SIDE), .TAKEN_ROWS(FRAME_HEIGHT),
@@ -212,7 +229,7 @@ module raster_core #(
         .left_o(advance_left), .right_o(advance_right), .top_o(advance_top), .bottom_o(advance_bottom),
         .tail_o(in_tail), .segment_end_o(advance_segment_end), .row_end_o(advance_row_end),
         .region_top_o(advance_region_top), .region_bottom_o(advance_region_bottom),
-        .frame_over_o(frame_over)
+        .frame_ends_o(frame_ends), .frame_over_o(frame_over)
     );
 
     wire [WORD-1:0] made;
@@ -235,6 +252,36 @@ module raster_core #(
                  advance_segment_end, advance_row_end, advance_region_top, advance_region_bottom}),
         .data_o({word, left, right, top, bottom, row_repeated, segment_end, row_end, region_top, region_bottom})
     );
+
+    // ---- The classes of regions, and the levels that follow from them
+    localparam [1:0] OFF = 2'd1;
+    localparam [1:0] KEEN = 2'd2;
+    wire [1:0] corner_class, edge_class, change_class, summary_class, settled_class, judged_class;
+    wire [EDGE_LEVEL_BITS-1:0] edge_level = edge_class == KEEN ? keen_edge_level_i : edge_level_i;
+    wire [WIDTH-1:0] corner_level = corner_class == KEEN ? keen_corner_level_i : corner_level_i;
+    wire [WIDTH-1:0] temporal_level = change_class == KEEN ? keen_temporal_level_i : temporal_level_i;
+    wire [WIDTH-1:0] summary_level = summary_class == KEEN ? keen_summary_level_i
+        : summary_class == OFF ? off_summary_level_i : summary_level_i;
+    generate
+        if (ZONES) begin : g_zones
+            raster_classes #(
+                .COLUMNS(COLUMNS), .ROWS(ROWS), .REGION_BITS(REGION_BITS), .ADDRESS_BITS(CLASS_ADDRESS_BITS),
+                .CLASSES(CLASSES), .CENTER_CLOCKS(CENTER_CLOCKS), .STORE_CLOCKS(STORE_CLOCKS), .HIT_CLOCKS(HIT_CLOCKS),
+                .SETTLED_CLOCKS(SETTLED_CLOCKS), .DEEP(DEEP)
+            ) u_classes (
+                .clk_i(clk_i), .rst_i(rst_i), .write_i(zone_write_i), .address_i(zone_address_i), .word_i(zone_word_i),
+                .commit_i(zone_commit_i), .pending_o(zone_pending_o), .advance_i(advance), .frame_ends_i(frame_ends),
+                .step_i(tail), .segment_end_i(segment_end), .row_end_i(row_end), .region_bottom_i(region_bottom),
+                .corner_class_o(corner_class), .edge_class_o(edge_class), .change_class_o(change_class),
+                .summary_class_o(summary_class), .settled_class_o(settled_class)
+            );
+        end else begin : g_no_zones
+            wire unused_zones = zone_write_i || |zone_address_i || |zone_word_i || zone_commit_i || frame_ends
+                || |keen_segment_level_i || |keen_minima_i || |CLASSES;
+            assign zone_pending_o = 1'b0;
+            assign {corner_class, edge_class, change_class, summary_class, settled_class} = 10'd0;
+        end
+    endgenerate
 
     // ---- Denoising
     wire scored_step;              // a word enters the last window
@@ -304,7 +351,7 @@ module raster_core #(
     wire [(HITS+1)*LANES-1:0] hits;  // the changed pixels lowest, then the hits of every feature that counts
     wire [WORD-1:0] center_word;     // the center of the last window
     wire [4*VALUE_BITS-1:0] differences;  // sums over a word of differences of neighbors (SURFACE)
-    wire unused_levels = |edge_level_i || |corner_level_i;
+    wire unused_levels = |edge_level || |corner_level;
     generate
         if (FEATURE_WINDOW) begin : g_window
             wire column_step;
@@ -334,14 +381,14 @@ module raster_core #(
                 raster_edge #(.WIDTH(WIDTH), .LANES(LANES), .LEVEL_BITS(EDGE_LEVEL_BITS), .DEEP(DEEP)) u_edge (
                     .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right),
                     .top_i(column_top), .bottom_i(column_bottom), .upper_i(upper), .middle_i(middle), .lower_i(lower),
-                    .level_i(edge_level_i), .hit_o(hits[LANES+:LANES])
+                    .level_i(edge_level), .hit_o(hits[LANES+:LANES])
                 );
             end
             if (CORNER) begin : g_corner
                 raster_corner #(.WIDTH(WIDTH), .LANES(LANES), .DEEP(DEEP)) u_corner (
                     .clk_i(clk_i), .step_i(column_step), .left_i(column_left), .right_i(column_right),
                     .top_i(column_top), .bottom_i(column_bottom), .upper_i(upper), .middle_i(middle), .lower_i(lower),
-                    .level_i(corner_level_i), .hit_o(hits[(EDGE+1)*LANES+:LANES])
+                    .level_i(corner_level), .hit_o(hits[(EDGE+1)*LANES+:LANES])
                 );
             end
             if (SURFACE) begin : g_displacement
@@ -426,7 +473,7 @@ module raster_core #(
         end
     endgenerate
     raster_change #(.WIDTH(WIDTH), .LANES(LANES), .DEEP(DEEP)) u_change (
-        .clk_i(clk_i), .word_i(center), .reference_i(reference), .level_i(temporal_level_i), .hit_o(changes)
+        .clk_i(clk_i), .word_i(center), .reference_i(reference), .level_i(temporal_level), .hit_o(changes)
     );
 
     // ---- Scores of a region whose last word has come
@@ -520,8 +567,9 @@ module raster_core #(
         end
     endgenerate
 
-    // Two bits come with the counts of a region: a mean of it differs, and its summary is shown.
-    localparam OTHER_BITS = SETTLED_BITS + (BLOCKS > 0 ? 2 : 0);
+    // Two bits come with the counts of a region: a mean of it differs, and its summary is shown. Its class comes, too.
+    localparam SUMMARIES = BLOCKS > 0 ? 1 : 0;
+    localparam OTHER_BITS = SETTLED_BITS + 2 * SUMMARIES + 2 * ZONES;
     wire differs, settled_differs, judged_differs;
     wire shown, settled_shown, judged_shown;
     word_delay #(.WIDTH(2), .DEPTH(SETTLED_CLOCKS)) u_settled_summary (
@@ -532,14 +580,23 @@ module raster_core #(
     wire [SCORE_BITS-1:0] scores;
     generate
         if (SECOND_PASS) begin : g_deviation
-            wire [SETTLED_BITS+1:0] entering = {settled_differs, settled_shown, settled_scores};
-            wire [SETTLED_BITS+1:0] leaving;
-            assign {judged_differs, judged_shown} = leaving[SETTLED_BITS+1:SETTLED_BITS];
-            if (BLOCKS == 0) begin : g_no_summary
-                wire unused_summary = |entering[SETTLED_BITS+1:SETTLED_BITS];
-                assign leaving[SETTLED_BITS+1:SETTLED_BITS] = 2'd0;
-            end
+            wire [OTHER_BITS-1:0] entering, leaving;
+            assign entering[SETTLED_BITS-1:0] = settled_scores;
             assign scores[SETTLED_BITS-1:0] = leaving[SETTLED_BITS-1:0];
+            if (SUMMARIES) begin : g_summary
+                assign entering[SETTLED_BITS+:2] = {settled_differs, settled_shown};
+                assign {judged_differs, judged_shown} = leaving[SETTLED_BITS+:2];
+            end else begin : g_no_summary
+                wire unused_summary = settled_differs || settled_shown;
+                assign {judged_differs, judged_shown} = 2'd0;
+            end
+            if (ZONES) begin : g_class
+                assign entering[OTHER_BITS-1-:2] = settled_class;
+                assign judged_class = leaving[OTHER_BITS-1-:2];
+            end else begin : g_no_class
+                wire unused_class = |settled_class;
+                assign judged_class = 2'd0;
+            end
             wire [MAD_BITS-1:0] mad;
             wire [SEGMENT_BITS-1:0] segment;
             if (MAD) begin : g_mad
@@ -557,18 +614,20 @@ module raster_core #(
                 .ROW_WORDS(ROW_WORDS), .BANKS(BANKS), .POSITION_BITS(POSITION_BITS), .START_BITS(START_BITS),
                 .SUM_BITS(SUM_BITS), .FRACTION(FRACTION), .DIVIDEND_BITS(DIVIDEND_BITS), .MEAN_BITS(MEAN_BITS),
                 .FACTOR_BITS(FACTOR_BITS), .FACTOR(FACTOR), .SHIFT(SHIFT), .MAD(MAD), .MAD_BITS(MAD_BITS),
-                .SEGMENT(SEGMENT), .SEGMENT_BITS(SEGMENT_BITS), .COUNT_BITS(COUNT_BITS), .OTHER_BITS(OTHER_BITS), .OTHER_CLOCKS(SETTLED_CLOCKS), .DEEP(DEEP)
+                .SEGMENT(SEGMENT), .SEGMENT_BITS(SEGMENT_BITS), .COUNT_BITS(COUNT_BITS), .OTHER_BITS(OTHER_BITS), .ZONES(ZONES),
+                .OTHER_CLOCKS(SETTLED_CLOCKS), .DEEP(DEEP)
             ) u_deviation (
-                .clk_i(clk_i), .rst_i(rst_i), .segment_level_i(segment_level_i), .store_i(store_step),
+                .clk_i(clk_i), .rst_i(rst_i), .segment_level_i(segment_level_i), .keen_segment_level_i(keen_segment_level_i), .store_i(store_step),
                 .store_place_i(store_place), .word_i(center), .done_i(done), .sum_i(sum), .settled_i(settled),
-                .other_i(entering[OTHER_BITS-1:0]), .judged_o(judged), .mad_o(mad), .segment_o(segment),
-                .other_o(leaving[OTHER_BITS-1:0])
+                .other_i(entering), .judged_o(judged), .mad_o(mad), .segment_o(segment),
+                .other_o(leaving)
             );
         end else begin : g_no_deviation
-            wire unused_sum = |sum || |segment_level_i;
+            wire unused_sum = |sum || |segment_level_i || |keen_segment_level_i;
             assign judged = settled;
             assign scores = settled_scores;
             assign {judged_differs, judged_shown} = {settled_differs, settled_shown};
+            assign judged_class = settled_class;
         end
     endgenerate
 
@@ -586,11 +645,12 @@ module raster_core #(
 
     raster_decision #(
         .HITS(HITS), .VARIANCE(VARIANCE), .RANGE(RANGE), .SURFACE(SURFACE), .MAD(MAD), .SEGMENT(SEGMENT), .ALL(ALL),
-        .LAST_SENT(LAST_SENT), .BLANKS(BLANKS), .SUMMARIES(BLOCKS > 0 ? 1 : 0), .DEEP(DEEP), .PIXELS(SIDE * SIDE), .COUNT_BITS(COUNT_BITS),
+        .LAST_SENT(LAST_SENT), .BLANKS(BLANKS), .SUMMARIES(SUMMARIES), .ZONES(ZONES), .DEEP(DEEP), .PIXELS(SIDE * SIDE), .COUNT_BITS(COUNT_BITS),
         .VARIANCE_BITS(VARIANCE_BITS), .RANGE_BITS(WIDTH), .SURFACE_BITS(SUM_BITS), .MAD_BITS(MAD_BITS),
         .SEGMENT_BITS(SEGMENT_BITS), .REGIONS(REGIONS), .REGION_BITS(REGION_BITS), .SCORE_BITS(SCORE_BITS)
     ) u_decision (
         .clk_i(clk_i), .rst_i(rst_i), .judged_i(judged), .scores_i(scores), .minima_i(minima_i),
+        .keen_minima_i(keen_minima_i), .class_i(judged_class),
         .shown_i(judged_shown), .differs_i(judged_differs), .lost_i(lost_reference),
         .lost_region_i(lost_reference_region), .lost_mark_i(lost_mark), .decided_o(decided),
         .will_be_active_o(will_be_active), .will_be_sent_o(will_be_sent), .will_be_shown_o(will_be_shown),
@@ -640,7 +700,7 @@ module raster_core #(
                     .DEEP(DEEP)
                 ) u_summary (
                     .clk_i(clk_i), .rst_i(rst_i), .step_i(arriving_step), .row_end_i(store_row_end),
-                    .word_i(RAW ? stored_raw : center), .level_i(summary_level_i), .mean_valid_o(mean_valid),
+                    .word_i(RAW ? stored_raw : center), .level_i(summary_level), .mean_valid_o(mean_valid),
                     .mean_region_o(mean_region), .mean_row_o(mean_row), .mean_number_o(mean_number), .mean_o(mean),
                     .differs_o(differs), .shown_o(shown), .decided_i(decided), .decided_region_i(decided_region),
                     .decided_shown_i(will_be_shown), .done_i(done_sending), .done_lost_i(done_lost),
@@ -648,7 +708,7 @@ module raster_core #(
                     .sent_mean_i(sent_mean)
                 );
             end else begin : g_no_summary
-                wire unused_sent = |summary_level_i || sent || |sent_region || |sent_number || |sent_mean || done_sending
+                wire unused_sent = |summary_level || sent || |sent_region || |sent_number || |sent_mean || done_sending
                                    || done_lost || |done_region || |decided_region || will_be_shown;
                 assign {mean_valid, mean_region, mean_row, mean_number, mean, differs, shown} =
                     {(5 + REGION_COLUMN_BITS + NUMBER_BITS + WIDTH) {1'b0}};
@@ -677,7 +737,7 @@ module raster_core #(
                 .sent_o(sent), .sent_region_o(sent_region), .sent_number_o(sent_number), .sent_mean_o(sent_mean)
             );
         end else begin : g_no_forward
-            wire unused_forward = forward_ready_i || arriving_step || region_bottom || |scored_raw || mark || last_region || |summary_level_i
+            wire unused_forward = forward_ready_i || arriving_step || region_bottom || |scored_raw || mark || last_region || |summary_level
                 || will_be_shown || |decided_region;
             assign {forward_valid_o, forward_region_o, forward_position_o, forward_pixel_o} =
                 {(1 + REGION_BITS + POSITION_BITS + WORD) {1'b0}};

@@ -28,12 +28,14 @@ module raster_deviation #(
     parameter SEGMENT_BITS = 1,      // bits of the score of `segment`
     parameter COUNT_BITS = 7,        // bits of a count, 0..SIDE * SIDE
     parameter OTHER_BITS = 40,       // bits of the other scores
+    parameter ZONES = 0,             // 1: the two highest bits of the other scores are the class of the region
     parameter OTHER_CLOCKS = 0,      // clocks by which the other scores come after the sum
     parameter DEEP = 0               // 1: more registers, for a faster clock
 ) (
     input  wire                    clk_i,            // clock, rising edge
     input  wire                    rst_i,            // synchronous reset, active high
     input  wire [       WIDTH-1:0] segment_level_i,  // a pixel counts if it differs from the mean by more than this level (SEGMENT)
+    input  wire [       WIDTH-1:0] keen_segment_level_i,  // segment_level_i of keen regions (SEGMENT, ZONES)
     input  wire                    store_i,          // a word is stored at this edge
     input  wire [  START_BITS-1:0] store_place_i,    // place in the buffer of that word
     input  wire [ LANES*WIDTH-1:0] word_i,           // the word that is stored
@@ -84,9 +86,9 @@ module raster_deviation #(
         .WIDTH(WIDTH), .LANES(LANES), .SIDE(SIDE), .SEGMENT_WORDS(SEGMENT_WORDS), .POSITION_BITS(POSITION_BITS),
         .ROW_WORDS(ROW_WORDS), .PLACE_BITS(START_BITS), .FRACTION(FRACTION), .MEAN_BITS(MEAN_BITS),
         .MAD(MAD), .MAD_BITS(MAD_BITS), .SEGMENT(SEGMENT), .SEGMENT_BITS(SEGMENT_BITS), .COUNT_BITS(COUNT_BITS),
-        .EXTRA_BITS(OTHER_BITS), .QUEUE_BITS(QUEUE_BITS), .DEEP(DEEP)
+        .EXTRA_BITS(OTHER_BITS), .ZONES(ZONES), .QUEUE_BITS(QUEUE_BITS), .DEEP(DEEP)
     ) u_pass (
-        .clk_i(clk_i), .rst_i(rst_i), .segment_level_i(segment_level_i), .enter_i(enter), .mean_i(settled_mean),
+        .clk_i(clk_i), .rst_i(rst_i), .segment_level_i(segment_level_i), .keen_segment_level_i(keen_segment_level_i), .enter_i(enter), .mean_i(settled_mean),
         .start_i(start), .extra_i(entering), .read_o(read), .place_o(place), .word_i(word), .done_o(judged_o),
         .mad_o(mad_o), .segment_o(segment_o), .extra_o(other_o)
     );

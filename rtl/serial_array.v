@@ -67,6 +67,10 @@ module serial_array #(
     parameter CHAIN_BITS = 7,       // bits of the word that goes around the ring of lanes
     parameter LEAST_BITS = 2,       // `flow`: bits of a sum times its weight
     parameter COORDINATE_BITS = 2,  // bits of dx and of dy of a displacement
+    // Zones
+    parameter ZONES = 0,            // 1: regions have classes
+    parameter CLASS_ADDRESS_BITS = 1,  // bits of the number of a word of the map of classes
+    parameter [2*COLUMNS*ROWS-1:0] CLASSES = 0,  // the first map, region 0 in the lowest bits
     // Timing
     parameter DEEP = 0              // 1: more registers, for a faster clock
 ) (
@@ -83,6 +87,19 @@ module serial_array #(
     input  wire [                          WIDTH-1:0] segment_level_i,    // level of `segment`
     input  wire [        (FEATURES+1)*SCORE_BITS-1:0] minima_i,           // smallest scores that vote, that of TRS lowest
     input  wire [                          WIDTH-1:0] summary_level_i,    // a mean that differs by more than this level is sent again
+    // Classes (ZONES), and the thresholds of keen regions and of those that are off
+    input  wire                                       zone_write_i,       // a word of the map of classes is written
+    input  wire [             CLASS_ADDRESS_BITS-1:0] zone_address_i,     // number of that word
+    input  wire [                               31:0] zone_word_i,        // the word: 16 classes, the first one in the lowest bits
+    input  wire                                       zone_commit_i,      // frames use the map that has been written
+    output wire                                       zone_pending_o,     // the committed map is not in use yet
+    input  wire [                          WIDTH-1:0] keen_temporal_level_i,  // temporal_level_i of keen regions
+    input  wire [                          WIDTH+1:0] keen_edge_half_i,   // edge_half_i of keen regions
+    input  wire [                          WIDTH-1:0] keen_corner_level_i,  // corner_level_i of keen regions
+    input  wire [                          WIDTH-1:0] keen_segment_level_i, // segment_level_i of keen regions
+    input  wire [        (FEATURES+1)*SCORE_BITS-1:0] keen_minima_i,      // minima_i of keen regions
+    input  wire [                          WIDTH-1:0] keen_summary_level_i, // summary_level_i of keen regions
+    input  wire [                          WIDTH-1:0] off_summary_level_i,  // summary_level_i of regions that are off
     // Scores and decisions
     output wire                                       score_valid_o,      // a score of region_o is on the ports
     output wire [                     INDEX_BITS-1:0] score_index_o,      // number of that score; 0 is the temporal count
@@ -241,7 +258,8 @@ module serial_array #(
     wire [INDEX_BITS-1:0] index;
     wire [REGION_BITS-1:0] region;
     wire [POSITION_BITS-1:0] position;
-    wire [ACC_BITS-1:0] constant;
+    wire [ACC_BITS-1:0] constant, keen_constant;
+    wire classing;
     wire [CONTROL_BITS-1:0] controls;
 
     serial_sequencer #(
@@ -256,10 +274,13 @@ module serial_array #(
         .FRACTION(FRACTION), .SUM_BITS(SUM_BITS), .COUNT_BITS(COUNT_BITS), .DENOISED_BASE(DENOISED_BASE),
         .REFERENCE_BASE(REFERENCE_BASE), .WORD_BITS(WORD_BITS), .SLOT_BITS(SLOT_BITS),
         .REGION_BITS(REGION_BITS), .POSITION_BITS(POSITION_BITS), .INDEX_BITS(INDEX_BITS),
-        .SCALE_BITS(SCALE_BITS), .ACC_BITS(ACC_BITS)
+        .SCALE_BITS(SCALE_BITS), .ACC_BITS(ACC_BITS), .ZONES(ZONES)
     ) u_sequencer (
         .clk_i(clk_i), .rst_i(rst_i), .start_i(start), .temporal_level_i(temporal_level_i),
-        .edge_half_i(edge_half_i), .corner_level_i(corner_level_i), .segment_level_i(segment_level_i), .working_o(working),
+        .edge_half_i(edge_half_i), .corner_level_i(corner_level_i), .segment_level_i(segment_level_i),
+        .keen_temporal_level_i(keen_temporal_level_i), .keen_edge_half_i(keen_edge_half_i),
+        .keen_corner_level_i(keen_corner_level_i), .keen_segment_level_i(keen_segment_level_i),
+        .keen_constant_o(keen_constant), .classing_o(classing), .working_o(working),
         .reopen_o(reopen), .slot_o(slot), .address_o(word), .write_o(write), .constant_o(constant),
         .controls_o(controls), .rotate_o(rotate), .average_o(average), .return_o(returns), .block_o(block), .unload_o(unload), .index_o(index), .region_o(region),
         .position_o(position)
@@ -296,6 +317,8 @@ module serial_array #(
     wire [GROUPS*WIDTH-1:0] pixels;
     wire [GROUPS*ACC_BITS-1:0] all_constant;
     wire [GROUPS*CONTROL_BITS-1:0] all_controls;
+    wire [GROUPS*ACC_BITS-1:0] all_keen_constant;
+    wire [GROUPS-1:0] all_classing;
 
     genvar i;
     generate
@@ -304,16 +327,17 @@ module serial_array #(
                 .WIDTH(WIDTH), .ADDRESS_BITS(ADDRESS_BITS), .WORD(WORD), .LATE(LATE), .RASTER(RASTER),
                 .GROUP(i), .LANE_BITS(LANE_BITS), .ACC_BITS(ACC_BITS), .COPIES(COPIES), .BORDERS(BORDERS),
                 .FILTER(FILTER), .EDGE(EDGE), .CORNER(CORNER), .MAD(MAD), .VARIANCE(VARIANCE), .RANGE(RANGE), .SURFACE(SURFACE),
-                .SEGMENT(SEGMENT), .FLOW(FLOW), .SUMMARIES(SUMMARIES)
+                .SEGMENT(SEGMENT), .FLOW(FLOW), .SUMMARIES(SUMMARIES), .ZONES(ZONES)
             ) u_group (
                 .clk_i(clk_i), .rst_i(rst_i), .open_i(open), .valid_i(valid_i), .take_i(take),
                 .pixel_i(pixel_i[WIDTH-1:0]), .place_i(place), .lane_i(place_lane),
                 .address_i(full_address[ADDRESS_BITS-1:0]), .write_i(write),
-                .constant_i(constant), .controls_i(controls),
+                .constant_i(constant), .controls_i(controls), .keen_constant_i(keen_constant), .classing_i(classing),
                 .loading_o(loading[i]), .pixel_o(pixels[i*WIDTH+:WIDTH]), .rows_o(rows[i*8+:8]),
                 .columns_o(columns[i*8+:8]), .address_o(addresses[i*ADDRESS_BITS+:ADDRESS_BITS]),
                 .write_o(writes[i]), .constant_o(all_constant[i*ACC_BITS+:ACC_BITS]),
-                .controls_o(all_controls[i*CONTROL_BITS+:CONTROL_BITS])
+                .controls_o(all_controls[i*CONTROL_BITS+:CONTROL_BITS]),
+                .keen_constant_o(all_keen_constant[i*ACC_BITS+:ACC_BITS]), .classing_o(all_classing[i])
             );
         end
     endgenerate
@@ -321,6 +345,8 @@ module serial_array #(
     // Lanes.
     wire [(LANES+1)*CHAIN_BITS-1:0] ring;
     wire [(LANES+1)*FLAGS-1:0] flags;
+    wire [LANES:0] keen;  // keen[LANES] is of the region that passes
+    wire unused_keen = keen[0];
     wire [LANES*WIDTH-1:0] words;
     localparam DISPLACEMENT_BITS = FLOW ? 2 * COORDINATE_BITS : 1;
     wire [(LANES+1)*DISPLACEMENT_BITS-1:0] displacements;
@@ -361,13 +387,15 @@ module serial_array #(
                 .COPIES(COPIES), .BORDERS(BORDERS), .FILTER(FILTER), .EDGE(EDGE), .CORNER(CORNER),
                 .MAD(MAD), .VARIANCE(VARIANCE), .RANGE(RANGE), .SURFACE(SURFACE), .SEGMENT(SEGMENT), .FLOW(FLOW), .FRACTION(FRACTION),
                 .SUMMARIES(SUMMARIES), .DROPPED(MEAN_DROPPED), .AUX_BITS(AUX_BITS), .SUM_BITS(SUM_BITS), .PIXELS(SIDE * SIDE),
-                .LEAST_BITS(LEAST_BITS), .DISPLACEMENT_BITS(DISPLACEMENT_BITS)
+                .LEAST_BITS(LEAST_BITS), .DISPLACEMENT_BITS(DISPLACEMENT_BITS), .ZONES(ZONES)
             ) u_lane (
                 .clk_i(clk_i), .loading_i(loading[GROUP]), .pixel_i(pixel), .address_i(address),
                 .write_i(writes[GROUP]), .select_row_i(rows[GROUP*8+(i%64)/8]),
                 .select_column_i(columns[GROUP*8+i%8]), .sides_i(sides),
                 .constant_i(all_constant[GROUP*ACC_BITS+:ACC_BITS]),
                 .controls_i(all_controls[GROUP*CONTROL_BITS+:CONTROL_BITS]),
+                .keen_constant_i(all_keen_constant[GROUP*ACC_BITS+:ACC_BITS]), .classing_i(all_classing[GROUP]),
+                .keen_i(keen[i+1]), .keen_o(keen[i]),
                 .word_i(ring[(i+1)*CHAIN_BITS+:CHAIN_BITS]), .flags_i(flags[(i+1)*FLAGS+:FLAGS]),
                 .word_o(ring[i*CHAIN_BITS+:CHAIN_BITS]), .flags_o(flags[i*FLAGS+:FLAGS]),
                 .displacement_i(displacements[(i+1)*DISPLACEMENT_BITS+:DISPLACEMENT_BITS]),
@@ -386,6 +414,33 @@ module serial_array #(
         end
     endgenerate
 
+    // Classes.
+    wire [1:0] passing_class;  // of region_o
+
+    generate
+        if (ZONES) begin : g_zones
+            localparam [1:0] KEEN = 2'd2;
+            reg in_frame_q;  // the array takes a frame or works on one
+            wire in_frame = (in_frame_q || (valid_i && ready_o)) && !reopen;
+            assign keen[LANES] = passing_class == KEEN;
+
+            always @(posedge clk_i) in_frame_q <= in_frame && !rst_i;
+
+            class_memory #(
+                .REGIONS(COLUMNS * ROWS), .REGION_BITS(REGION_BITS), .ADDRESS_BITS(CLASS_ADDRESS_BITS), .CLASSES(CLASSES)
+            ) u_classes (
+                .clk_i(clk_i), .rst_i(rst_i), .write_i(zone_write_i), .address_i(zone_address_i), .word_i(zone_word_i),
+                .commit_i(zone_commit_i), .pending_o(zone_pending_o), .occupied_i(in_frame),
+                .region_i(next_shown[REGION_BITS-1:0]), .class_o(passing_class)
+            );
+        end else begin : g_no_zones
+            wire unused_zones = zone_write_i || |zone_address_i || |zone_word_i || zone_commit_i || |CLASSES;
+            assign zone_pending_o = 1'b0;
+            assign passing_class = 2'd0;
+            assign keen[LANES] = 1'b0;
+        end
+    endgenerate
+
     // Decision.
     wire region_valid;
     wire [DISPLACEMENT_BITS-1:0] displacement;
@@ -394,11 +449,12 @@ module serial_array #(
         .CHAIN_BITS(CHAIN_BITS), .SCORE_BITS(SCORE_BITS), .PIXELS(SIDE * SIDE), .FEATURES(FEATURES),
         .ALL(ALL), .SUMMARIES(SUMMARIES), .FLAGS(FLAGS), .LAST_SENT(LAST_SENT), .BLANKS(BLANKS), .REGIONS(COLUMNS * ROWS),
         .SLOTS(LANES * FOLD), .REGION_BITS(REGION_BITS), .INDEX_BITS(INDEX_BITS),
-        .FLOW_INDEX(FLOW_INDEX), .DISPLACEMENT_BITS(DISPLACEMENT_BITS)
+        .FLOW_INDEX(FLOW_INDEX), .DISPLACEMENT_BITS(DISPLACEMENT_BITS), .ZONES(ZONES)
     ) u_decision (
         .clk_i(clk_i), .rst_i(rst_i), .frame_i(reopen), .rotate_i(shown_rotate),
         .index_i(score_index_o), .region_i(region_o),
         .word_i(ring[CHAIN_BITS-1:0]), .flags_i(flags[FLAGS-1:0]), .displacement_i(displacements[DISPLACEMENT_BITS-1:0]), .minima_i(minima_i),
+        .keen_minima_i(keen_minima_i), .class_i(passing_class),
         .summary_i(summary_o), .flags_o(flags[LANES*FLAGS+:FLAGS]), .region_valid_o(region_valid),
         .score_valid_o(score_valid_o), .score_o(score_o), .displacement_o(displacement), .decision_valid_o(decision_valid_o),
         .srs_o(srs_o), .trs_o(trs_o), .active_o(active_o)
@@ -421,16 +477,17 @@ module serial_array #(
             serial_summary #(
                 .WIDTH(WIDTH), .MEANS(BLOCKS * BLOCKS), .BLOCK_BITS(BLOCK_BITS), .SUM_BITS(MEAN_SUM_BITS),
                 .FACTOR_BITS(MEAN_FACTOR_BITS), .FACTOR(MEAN_FACTOR), .SHIFT(MEAN_SHIFT), .SLOTS(LANES * FOLD),
-                .REGION_BITS(REGION_BITS)
+                .REGION_BITS(REGION_BITS), .ZONES(ZONES)
             ) u_summary (
                 .clk_i(clk_i), .rst_i(rst_i), .frame_i(reopen), .next_region_i(next_shown[REGION_BITS-1:0]),
                 .next_block_i(next_shown[REGION_BITS+:BLOCK_BITS]), .region_i(region_o), .block_i(shown_block),
                 .average_i(shown_average), .sum_i(ring[MEAN_SUM_BITS-1:0]), .decided_i(decision_valid_o),
-                .srs_i(srs_o), .active_i(active_o), .level_i(summary_level_i), .summary_o(summary_o), .mean_o(mean)
+                .srs_i(srs_o), .active_i(active_o), .level_i(summary_level_i), .keen_level_i(keen_summary_level_i),
+                .off_level_i(off_summary_level_i), .class_i(passing_class), .summary_o(summary_o), .mean_o(mean)
             );
             wire unused_next = |next_shown[SHOWN_BITS-1:REGION_BITS+BLOCK_BITS];
         end else begin : g_no_summary
-            wire unused_summary = |summary_level_i || |next_shown || shown_average || |shown_block;
+            wire unused_summary = |summary_level_i || |keen_summary_level_i || |off_summary_level_i || |next_shown || shown_average || |shown_block;
             assign summary_o = 1'b0;
             assign mean = {WIDTH{1'b0}};
         end

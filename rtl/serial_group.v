@@ -27,7 +27,8 @@ module serial_group #(
     parameter SURFACE = 0,       // 1: the design has the feature `surface`
     parameter SEGMENT = 0,       // 1: the design has the feature `segment`
     parameter FLOW = 0,          // 1: the design has the feature `flow`
-    parameter SUMMARIES = 0      // 1: irrelevant regions send the means of their blocks
+    parameter SUMMARIES = 0,     // 1: irrelevant regions send the means of their blocks
+    parameter ZONES = 0          // 1: regions have classes
 ) (
     input  wire                    clk_i,           // clock, rising edge
     input  wire                    rst_i,           // synchronous reset, active high
@@ -44,6 +45,8 @@ module serial_group #(
     // Controls of the lanes.
     input  wire [    ACC_BITS-1:0] constant_i,      // the constant
     input  wire [            38:0] controls_i,      // the control word, see serial_controls
+    input  wire [    ACC_BITS-1:0] keen_constant_i, // the constant of keen regions (ZONES)
+    input  wire                    classing_i,      // classes move on by one lane (ZONES)
     // Outputs to the lanes: those of loading, then the inputs above, registered.
     output wire                    loading_o,       // pixels come from outside
     output wire [       WIDTH-1:0] pixel_o,         // the pixel that was taken last
@@ -52,7 +55,9 @@ module serial_group #(
     output wire [ADDRESS_BITS-1:0] address_o,       // address_i, or the address of the next pixel
     output wire                    write_o,         // write_i, or a pixel comes in
     output wire [    ACC_BITS-1:0] constant_o,      // constant_i, in the clock of its use
-    output wire [            38:0] controls_o       // controls_i, each control in the clock of its use
+    output wire [            38:0] controls_o,      // controls_i, each control in the clock of its use
+    output wire [    ACC_BITS-1:0] keen_constant_o, // keen_constant_i, in the clock of its use (ZONES)
+    output wire                    classing_o       // classing_i, in the clock in which scores move on (ZONES)
 );
 
     generate
@@ -148,6 +153,21 @@ module serial_group #(
     serial_control #(.WIDTH(28), .USED(WITH_ACCUMULATOR), .LATE(LATE)) u_with_accumulator (
         .clk_i(clk_i), .rst_i(rst_i), .bits_i(controls_i[27:0]), .bits_o(controls_o[27:0])
     );
+
+    generate
+        if (ZONES) begin : g_zones
+            serial_control #(.WIDTH(ACC_BITS), .USED({ACC_BITS{1'b1}}), .LATE(WORD)) u_keen_constant (
+                .clk_i(clk_i), .rst_i(rst_i), .bits_i(keen_constant_i), .bits_o(keen_constant_o)
+            );
+            serial_control #(.WIDTH(1), .USED(1'b1), .LATE(LATE)) u_classing (
+                .clk_i(clk_i), .rst_i(rst_i), .bits_i(classing_i), .bits_o(classing_o)
+            );
+        end else begin : g_no_zones
+            wire unused_zones = |keen_constant_i || classing_i;
+            assign keen_constant_o = {ACC_BITS{1'b0}};
+            assign classing_o = 1'b0;
+        end
+    endgenerate
 
 endmodule
 

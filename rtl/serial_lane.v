@@ -61,7 +61,8 @@ module serial_lane #(
     parameter SUM_BITS = 14,     // `surface` and `flow`: bits of the sum of a region
     parameter PIXELS = 64,       // `segment`: pixels of a region
     parameter LEAST_BITS = 2,    // `flow`: bits of a sum times its weight
-    parameter DISPLACEMENT_BITS = 1  // `flow`: bits of a displacement
+    parameter DISPLACEMENT_BITS = 1, // `flow`: bits of a displacement
+    parameter ZONES = 0          // 1: keen regions have a constant of their own
 ) (
     input  wire                    clk_i,            // clock, rising edge
     // Memory.
@@ -75,6 +76,8 @@ module serial_lane #(
     // Controls.
     input  wire [    ACC_BITS-1:0] constant_i,       // the constant
     input  wire [            38:0] controls_i,       // the control word, see serial_controls
+    input  wire [    ACC_BITS-1:0] keen_constant_i,  // the constant of keen regions (ZONES)
+    input  wire                    classing_i,       // keen_i is the region's from the next clock on (ZONES)
     // Chain of scores.
     input  wire [  CHAIN_BITS-1:0] word_i,           // score of the lane before
     input  wire [       FLAGS-1:0] flags_i,          // flags of the lane before: active or TRS; then SRS so far or sent
@@ -82,6 +85,8 @@ module serial_lane #(
     output wire [       FLAGS-1:0] flags_o,          // flags of this lane
     input  wire [DISPLACEMENT_BITS-1:0] displacement_i,  // displacement of the lane before (FLOW)
     output wire [DISPLACEMENT_BITS-1:0] displacement_o,  // displacement of this lane (FLOW)
+    input  wire                    keen_i,           // the region of the lane before is keen (ZONES)
+    output wire                    keen_o,           // the region of this lane is keen (ZONES)
     // Unloading.
     output wire                    leaves_o,         // the word read is a pixel of an active region, or a mean that is sent
     output wire [       WIDTH-1:0] pixel_o           // the word read, as the operand
@@ -143,6 +148,21 @@ module serial_lane #(
         recall_sum, recall_mean, ceiling, shrink, least, note, probe, choose,
         twice, divide, shift, keep, fetch, unload, unload_mean
     } = controls_i;
+
+    // The constant of the region's class.
+    wire [ACC_BITS-1:0] constant;
+    generate
+        if (ZONES) begin : g_zones
+            reg keen_q;
+            always @(posedge clk_i) if (classing_i) keen_q <= keen_i;
+            assign keen_o = keen_q;
+            assign constant = keen_q ? keen_constant_i : constant_i;
+        end else begin : g_no_zones
+            wire unused_zones = |keen_constant_i || classing_i || keen_i;
+            assign keen_o = 1'b0;
+            assign constant = constant_i;
+        end
+    endgenerate
 
     reg  [  ACC_BITS-1:0] acc_q;
     reg  [CHAIN_BITS-1:0] chain_q;
@@ -286,8 +306,8 @@ module serial_lane #(
             if (VARIANCE != 0) begin : g_masked
                 wire [ACC_BITS-1:0] wide_aux = {{(ACC_BITS - AUX_BITS) {1'b0}}, aux};
                 wire [ACC_BITS-1:0] plain = from_aux ? wide_aux : read;
-                wire chosen = !masked || |(plain & constant_i);
-                assign choice = (from_memory || from_aux) ? plain : constant_i;
+                wire chosen = !masked || |(plain & constant);
+                assign choice = (from_memory || from_aux) ? plain : constant;
                 if (DEEP != 0) begin : g_late
                     reg chosen_q;
                     always @(posedge clk_i) chosen_q <= chosen;
@@ -297,7 +317,7 @@ module serial_lane #(
                 end
             end else begin : g_plain
                 wire unused_masked = masked || from_aux;  // from_aux is used where `mad` scales the word and `range` does not
-                assign choice = from_memory ? read : constant_i;
+                assign choice = from_memory ? read : constant;
                 assign takes  = 1'b1;
             end
 
@@ -397,7 +417,7 @@ module serial_lane #(
             assign displacement_o = {DISPLACEMENT_BITS{1'b0}};
             wire unused_aux = |aux;
             assign aux = {AUX_BITS{1'b0}};
-            assign found = from_memory ? wide_word : constant_i;
+            assign found = from_memory ? wide_word : constant;
             assign operand = source ^ {ACC_BITS{invert}};
 
             carry_adder #(.WIDTH(ACC_BITS)) u_sum (

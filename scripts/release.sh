@@ -72,6 +72,8 @@ step_netlists() {
     local zoned=("${small[@]}" --level rcm --grid 3x2 --set "spatial=[{feature='edge'},$features]" --set "zones={}")
     foveate cosim --netlist --preset bare "${zoned[@]}"
     foveate cosim --netlist --preset steady "${zoned[@]}" --set "hardware.pipelining='deep'" --set "render.irrelevant='mean'"
+    foveate cosim --netlist --preset bare "${zoned[@]}" --set "hardware.organization='serial'" --set hardware.fold=2
+    foveate cosim --netlist --preset steady "${zoned[@]}" --grid 4x3 --set "hardware.organization='raster'" --set "render.irrelevant='mean'"
 }
 step_area() { foveate estimate --compare --markdown; }
 step_lint() { scripts/lint.sh && scripts/checks/area_growth.py; }

@@ -11,7 +11,11 @@
 
 module {= module =} #(
     parameter COLUMNS = {= columns =},  // regions in a row of regions
-    parameter ROWS = {= rows =}      // rows of regions
+    parameter ROWS = {= rows =}{% if first_map.is_some() %},{% endif %}      // rows of regions
+{%- if let Some(map) = first_map %}
+    parameter [2*COLUMNS*ROWS-1:0] CLASSES =  // the first map of classes, 2 bits for each region, region 0 lowest
+    {= map =}
+{%- endif %}
 ) (
 {%- for port in ports %}
     {= port.declaration =}  // {= port.doc =}
@@ -20,6 +24,9 @@ module {= module =} #(
 {%- for constant in constants %}
     localparam [{= constant.width - 1 =}:0] {= constant.name =} = {= constant.width =}'d{= constant.value =};
 {%- endfor %}
+{%- if first_map.is_none() %}
+    wire unused_zone_pending;
+{%- endif %}
 {%- for port in unused %}
     wire {% if port.range.len() > 0 %}{= port.range =} {% endif %}unused_{= port.name =};
 {%- endfor %}
@@ -38,6 +45,10 @@ module {= module =} #(
         .{= level.0 =}({= level.1 =}),
 {%- endfor %}
         .minima_i({ {%- for minimum in minima %}{% if !loop.first %}, {% endif %}{= minimum =}{% endfor -%} }),
+        .keen_minima_i({ {%- for minimum in keen_minima %}{% if !loop.first %}, {% endif %}{= minimum =}{% endfor -%} }),
+{%- for port in classes %}
+        .{= port.0 =}({= port.1 =}),
+{%- endfor %}
         .decision_valid_o(decision_valid_o), .region_o(region_o), .srs_o(srs_o), .trs_o(trs_o), .active_o(active_o),
         .scores_o({ {%- for score in scores %}{% if !loop.first %}, {% endif %}{= score =}{% endfor -%} }),
 {%- for stream in streams %}

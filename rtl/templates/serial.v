@@ -12,7 +12,11 @@
 
 module {= module =} #(
     parameter COLUMNS = {= columns =},  // regions in a row of regions
-    parameter ROWS = {= rows =}      // rows of regions
+    parameter ROWS = {= rows =}{% if first_map.is_some() %},{% endif %}      // rows of regions
+{%- if let Some(map) = first_map %}
+    parameter [2*COLUMNS*ROWS-1:0] CLASSES =  // the first map of classes, 2 bits for each region, region 0 lowest
+    {= map =}
+{%- endif %}
 ) (
 {%- for port in ports %}
     {= port.declaration =}  // {= port.doc =}
@@ -42,6 +46,9 @@ module {= module =} #(
     wire [{= slot_range =}:0] region;
     wire [{= center_bits - 1 =}:0] position;
     wire [{= slot_bits - 1 =}:0] slot;
+{%- if first_map.is_none() %}
+    wire unused_zone_pending;
+{%- endif %}
 {%- if !summarizes %}
     wire summary;
 {%- endif %}
@@ -49,7 +56,7 @@ module {= module =} #(
     wire [1:0] displacement_x;
     wire [1:0] displacement_y;
 {%- endif %}
-    wire unused_beside = |region || |position || |slot{% if !summarizes %} || summary{% endif %}{% if !displaces %} || |displacement_x || |displacement_y{% endif %}{% if half_level %} || edge_level_i[0]{% endif %};
+    wire unused_beside = |region || |position || |slot{% if !summarizes %} || summary{% endif %}{% if !displaces %} || |displacement_x || |displacement_y{% endif %}{% if half_level %} || edge_level_i[0]{% if first_map.is_some() %} || keen_edge_level_i[0]{% endif %}{% endif %};
 
     serial_array #(
         .COLUMNS(COLUMNS), .ROWS(ROWS), .LANES(LANES), .FOLD({= fold =}),
@@ -60,11 +67,18 @@ module {= module =} #(
     ) u_array (
         .clk_i(clk_i), .rst_i(rst_i), .valid_i({= valid =}), .ready_o({= ready =}), .pixel_i(pixel_i),
         .temporal_level_i({= temporal_level =}),
+        .keen_temporal_level_i({= keen_temporal_level =}),
 {%- for level in levels %}
         .{= level.0 =}({= level.1 =}),
 {%- endfor %}
         .minima_i({ {%- for minimum in minima %}{% if !loop.first %}, {% endif %}{= minimum =}{% endfor -%} }),
+        .keen_minima_i({ {%- for minimum in keen_minima %}{% if !loop.first %}, {% endif %}{= minimum =}{% endfor -%} }),
         .summary_level_i({= summary_level =}),
+        .keen_summary_level_i({= keen_summary_level =}),
+        .off_summary_level_i({= off_summary_level =}),
+{%- for port in classes %}
+        .{= port.0 =}({= port.1 =}),
+{%- endfor %}
         .score_valid_o(score_valid_o), .score_index_o(score_index_o), .region_o(region), .score_o(score_o),
         .decision_valid_o(decision_valid_o), .srs_o(srs_o), .trs_o(trs_o), .active_o(active_o),
         .displacement_x_o({% if displaces %}displacement_x_o{% else %}displacement_x{% endif %}),

@@ -57,6 +57,7 @@ impl RecordCodec {
         };
         let thresholds = input.thresholds;
         let keen = input.zones.map_or(thresholds, |zones| zones.keen);
+        let map = input.zones.map(|zones| zones.map).unwrap_or_default();
         let value = match role {
             PortRole::Reset => input.reset.into(),
             PortRole::Valid => input.valid.into(),
@@ -78,6 +79,10 @@ impl RecordCodec {
                 input.zones.map_or(thresholds.summary_level, |zones| zones.off_summary_level).into()
             }
             PortRole::RegionClass => return self.push_classes(input),
+            PortRole::ClassWrite => map.write.into(),
+            PortRole::ClassAddress => map.address.into(),
+            PortRole::ClassWord => map.word.into(),
+            PortRole::ClassCommit => map.commit.into(),
             PortRole::Pixel => return self.push_pixels(input.pixels),
             PortRole::ReferencePixel => return self.push_pixels(input.reference_pixels),
             // The role is an output, or the clock, which is in no record.

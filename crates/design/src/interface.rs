@@ -9,6 +9,10 @@ use crate::{OutputQualifier, Port, PortDirection, PortRole};
 pub enum StreamRole {
     /// The pixels of frames, on their way into the core.
     Pixels,
+    /// The words of the map of classes, on their way into the core.
+    ClassWords,
+    /// The commits of maps of classes.
+    ClassCommits,
     /// The words that an external frame store returns to the core.
     References,
     /// The words that the core writes to an external frame store.
@@ -29,6 +33,8 @@ impl StreamRole {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Pixels => "pixels",
+            Self::ClassWords => "classes",
+            Self::ClassCommits => "commits",
             Self::References => "references",
             Self::StoredWords => "stored",
             Self::Scores => "scores",

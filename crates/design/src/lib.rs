@@ -8,6 +8,7 @@
 //! other crate validates a configuration or derives a width again. This crate does no I/O.
 
 mod choice;
+mod class_memory;
 mod config;
 mod design;
 mod fingerprint;
@@ -32,6 +33,7 @@ pub use choice::{
     FrameStoreKind, InterfaceKind, LaneMemoryKind, Organization, Pipelining, PixelFeed,
     ThresholdSource,
 };
+pub use class_memory::{CLASS_BITS, CLASS_WORD_BITS, CLASSES_PER_WORD, class_word};
 pub use config::DesignConfig;
 pub use design::Design;
 pub use foveate_camera::{

@@ -51,8 +51,19 @@ pub enum PortRole {
     KeenSummaryLevel,
     /// The level of the summaries of regions that are off.
     OffSummaryLevel,
-    /// The codes of the classes of regions, one per lane (designs with zones).
+    /// The codes of the classes of regions, one per lane (`pipelined`, designs with zones).
     RegionClass,
+    /// A word of the map of classes is written (`serial` and `raster`, designs with zones; so are the
+    /// next four).
+    ClassWrite,
+    /// The number of the word that is written.
+    ClassAddress,
+    /// The word that is written: the codes of [`crate::CLASSES_PER_WORD`] classes.
+    ClassWord,
+    /// Frames use the map that has been written.
+    ClassCommit,
+    /// Frames do not use the committed map yet.
+    ClassPending,
     /// The port `ReferencePixel` holds a reference (`raster`, external store).
     ReferenceValid,
     /// The reference of the next word (`raster`, external store).
@@ -156,6 +167,8 @@ impl PortRole {
             | Self::KeenSummaryLevel
             | Self::OffSummaryLevel
             | Self::RegionClass
+            | Self::ClassAddress
+            | Self::ClassWord
             | Self::ReferencePixel
             | Self::StorePixel
             | Self::ScoreIndex
@@ -177,6 +190,9 @@ impl PortRole {
             | Self::Reset
             | Self::Valid
             | Self::StartOfFrame
+            | Self::ClassWrite
+            | Self::ClassCommit
+            | Self::ClassPending
             | Self::ReferenceValid
             | Self::ForwardReady
             | Self::Ready
@@ -319,6 +335,11 @@ fn port_name(role: PortRole) -> String {
         PortRole::KeenSummaryLevel => "keen_summary_level_i".to_owned(),
         PortRole::OffSummaryLevel => "off_summary_level_i".to_owned(),
         PortRole::RegionClass => "zone_i".to_owned(),
+        PortRole::ClassWrite => "zone_write_i".to_owned(),
+        PortRole::ClassAddress => "zone_address_i".to_owned(),
+        PortRole::ClassWord => "zone_word_i".to_owned(),
+        PortRole::ClassCommit => "zone_commit_i".to_owned(),
+        PortRole::ClassPending => "zone_pending_o".to_owned(),
         PortRole::ReferenceValid => "reference_valid_i".to_owned(),
         PortRole::ReferencePixel => "reference_pixel_i".to_owned(),
         PortRole::ForwardReady => "forward_ready_i".to_owned(),

@@ -27,10 +27,6 @@ pub(crate) fn check_support(hardware: &HardwareConfig, camera: &Camera) -> Resul
     refuse_unless(organization, "temporal.reference", quoted(reference.name()), |one| {
         supports_reference(one, reference)
     })?;
-    if camera.zones().is_some() && !supports_zones(organization) {
-        let remedy = format!("leave the table [zones] out, or use organization = \"{Pipelined}\"");
-        return Err(organization.combination_error("zones", "{...}".to_owned(), &remedy));
-    }
     let irrelevant = camera.irrelevant();
     refuse_unless(organization, "render.irrelevant", quoted(irrelevant.name()), |one| {
         supports_rendering(one, irrelevant)
@@ -86,14 +82,6 @@ fn supports_rendering(organization: Organization, irrelevant: IrrelevantRenderin
     use IrrelevantRendering::{Hold, Mean, Zero};
     match (organization, irrelevant) {
         (Pipelined | Serial | Raster, Zero | Hold | Mean) => true,
-    }
-}
-
-/// Returns true if the organization can have a class for every region.
-fn supports_zones(organization: Organization) -> bool {
-    match organization {
-        Pipelined => true,
-        Serial | Raster => false,
     }
 }
 

@@ -109,6 +109,7 @@ pub const LEAVES: &[Leaf] = leaves! {
     "serial_raster_feed" => ["serial_places", "serial_neighbor"],
     "serial_shown" => [],
     "serial_sides" => [],
+    "class_memory" => [],
     "serial_decision" => ["frame_store"],
     "serial_means" => [],
     "serial_summary" => ["serial_means", "frame_store", "magnitude_above"],
@@ -150,6 +151,7 @@ pub const LEAVES: &[Leaf] = leaves! {
     "raster_summary" => [
         "raster_blocks", "adder", "magnitude_above", "raster_memory", "word_delay", "bit_delay"
     ],
+    "raster_classes" => ["class_memory", "word_delay"],
     "raster_decision" => ["vote", "word_delay", "bit_delay", "raster_valid"],
     "raster_forward" => ["raster_start", "raster_readout", "raster_memory", "word_delay", "bit_delay"],
     "raster_core" => [
@@ -157,7 +159,7 @@ pub const LEAVES: &[Leaf] = leaves! {
         "binomial_columns",
         "raster_edge", "raster_corner", "raster_displacement", "raster_store", "raster_external", "raster_change", "raster_counts",
         "raster_moments", "raster_range", "raster_surface", "raster_ring", "raster_deviation", "raster_decision",
-        "raster_forward", "raster_line", "raster_repeat", "raster_summary"
+        "raster_forward", "raster_line", "raster_repeat", "raster_summary", "raster_classes"
     ],
     "packet_crc" => [],
     "packet_place" => [],
@@ -168,7 +170,8 @@ pub const LEAVES: &[Leaf] = leaves! {
     "axi_video" => ["raster_memory"],
     "serial_array" => [
         "serial_raster_feed", "serial_parallel_feed", "serial_sequencer", "serial_shown",
-        "serial_group", "serial_sides", "serial_lane", "serial_decision", "serial_summary"
+        "serial_group", "serial_sides", "serial_lane", "serial_decision", "serial_summary",
+        "class_memory"
     ],
 };
 

@@ -2,6 +2,10 @@
 //! Fills `raster.v`, the top of a raster design: the core, or the core for the smallest frame.
 
 use crate::camera_flags::{blanks_flag, last_sent_flag};
+use crate::class_map::{
+    class_address_range, class_connections, class_parameters, class_summary_levels, first_map,
+    keen_signal,
+};
 use crate::feature_parameters::{filter_number, parameter_prefix};
 use crate::frame_sync::{self, FrameSync};
 use crate::thresholds::{
@@ -34,11 +38,16 @@ struct RasterTop {
     constants: Vec<ThresholdConstant>,
     /// The outputs of the core that are no ports of the design.
     unused: Vec<UnusedOutput>,
+    /// The first map of classes, in a design with zones.
+    first_map: Option<String>,
     parameters: Vec<(String, String)>,
     /// The inputs of the core for the levels of pixels, and the signals connected to them.
     levels: Vec<(String, String)>,
     /// The minima and the scores, those of the last feature first.
     minima: Vec<String>,
+    keen_minima: Vec<String>,
+    /// The ports of the memory of classes, and the signals connected to them.
+    classes: [(&'static str, &'static str); 5],
     scores: Vec<String>,
     /// The ports of the core to an external frame store and for the pixels that leave, and the
     /// signals connected to them.
@@ -66,9 +75,12 @@ pub(crate) fn modules(design: RasterDesign<'_>, top: Top) -> Vec<SourceFile> {
 
 /// Returns the range of a port whose width depends on the grid; `None` for other ports.
 fn port_range(port: &Port) -> Option<String> {
-    use PortRole::{ForwardRegion, LostRegion, Region};
-    let of_region = matches!(port.role, Region | ForwardRegion | LostRegion);
-    of_region.then(|| "[$clog2(COLUMNS*ROWS)-1:0]".to_owned())
+    use PortRole::{ClassAddress, ForwardRegion, LostRegion, Region};
+    match port.role {
+        Region | ForwardRegion | LostRegion => Some("[$clog2(COLUMNS*ROWS)-1:0]".to_owned()),
+        ClassAddress => Some(class_address_range()),
+        _ => None,
+    }
 }
 
 fn view(design: RasterDesign<'_>, named: &Design, top: Top) -> RasterTop {
@@ -95,9 +107,12 @@ fn view(design: RasterDesign<'_>, named: &Design, top: Top) -> RasterTop {
         ports: PortLine::aligned(&top.ports(named), port_range),
         constants: threshold_constants(&design),
         unused,
+        first_map: first_map(&design),
         parameters: core_parameters(design, &timing),
         levels: level_inputs(design),
-        minima: minima(design),
+        minima: minima(design, threshold_signal),
+        keen_minima: minima(design, keen_signal),
+        classes: class_connections(&design),
         scores: score_signals(design),
         streams,
         sync: FrameSync::with_ready(&design, frame_beats(design)),
@@ -247,7 +262,7 @@ fn core_parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(Stri
     let list = list.map(|(name, value)| (name.to_owned(), value));
     let kinds = Organization::Raster.feature_kinds().into_iter();
     let flags = kinds.map(|kind| feature_flag(design, kind));
-    list.chain(flags).collect()
+    list.chain(flags).chain(class_parameters(&design)).collect()
 }
 
 /// Returns the parameter that says whether the design has a feature.
@@ -321,27 +336,34 @@ fn store_number(design: RasterDesign<'_>) -> u32 {
 
 /// Returns the inputs of the core for the levels of pixels, and the signals connected to them.
 fn level_inputs(design: RasterDesign<'_>) -> Vec<(String, String)> {
-    let temporal = threshold_signal(&design, PortRole::TemporalLevel);
+    let [keen_summary, off_summary] = class_summary_levels(&design);
     let mut list = vec![
-        ("temporal_level_i".to_owned(), temporal),
+        ("temporal_level_i".to_owned(), threshold_signal(&design, PortRole::TemporalLevel)),
+        ("keen_temporal_level_i".to_owned(), keen_signal(&design, PortRole::TemporalLevel)),
         ("summary_level_i".to_owned(), summary_level_signal(&design)),
+        ("keen_summary_level_i".to_owned(), keen_summary),
+        ("off_summary_level_i".to_owned(), off_summary),
     ];
     for kind in Organization::Raster.feature_kinds() {
         if let Some(width) = level_bits(design, kind) {
-            let given =
-                design.feature(kind).map(|_| threshold_signal(&design, PortRole::Level(kind)));
-            list.push((format!("{kind}_level_i"), given.unwrap_or_else(|| format!("{width}'d0"))));
+            let signal = |own: fn(&Design, PortRole) -> String| {
+                let given = design.feature(kind).map(|_| own(&design, PortRole::Level(kind)));
+                given.unwrap_or_else(|| format!("{width}'d0"))
+            };
+            list.push((format!("{kind}_level_i"), signal(threshold_signal)));
+            list.push((format!("keen_{kind}_level_i"), signal(keen_signal)));
         }
     }
     list
 }
 
-/// Returns the minima of all scores, that of the changed pixels last.
-fn minima(design: RasterDesign<'_>) -> Vec<String> {
+/// Returns the minima of all scores, that of the changed pixels last. `signal` returns the signal of
+/// a threshold.
+fn minima(design: RasterDesign<'_>, signal: fn(&Design, PortRole) -> String) -> Vec<String> {
     let roles =
         features_in_core_order(design).into_iter().rev().map(|f| PortRole::MinScore(f.kind()));
     let roles = roles.chain([PortRole::TemporalMinCount]);
-    roles.map(|role| threshold_signal(&design, role)).collect()
+    roles.map(|role| signal(&design, role)).collect()
 }
 
 /// Returns the ports of all scores, that of the changed pixels last.

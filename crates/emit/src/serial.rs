@@ -2,6 +2,10 @@
 //! Fills `serial.v`, the top of a serial design: the array, or an array that has one lane.
 
 use crate::camera_flags::{blanks_flag, last_sent_flag};
+use crate::class_map::{
+    class_address_range, class_connections, class_parameters, class_summary_levels, first_map,
+    keen_signal,
+};
 use crate::feature_parameters::{filter_number, parameter_prefix};
 use crate::frame_sync::{self, FrameSync};
 use crate::thresholds::{
@@ -11,9 +15,9 @@ use crate::verilog_text::{PortLine, module_file, rendered_text};
 use crate::{SourceFile, Top, banner};
 use askama::Template;
 use foveate_design::{
-    FeatureKind, FlowSearch, LaneMemoryKind, Neighborhood, Pipelining, PixelFeed, Port, PortRole,
-    SerialDesign, SerialTiming, SlotAreaKind, SpatialFeature, ThresholdSource, VoteCombination,
-    bits_for,
+    Design, FeatureKind, FlowSearch, LaneMemoryKind, Neighborhood, Pipelining, PixelFeed, Port,
+    PortRole, RegionClass, SerialDesign, SerialTiming, SlotAreaKind, SpatialFeature,
+    ThresholdSource, VoteCombination, bits_for,
 };
 
 #[derive(Template)]
@@ -32,6 +36,8 @@ struct SerialTop {
     highest: u32,
     ports: Vec<PortLine>,
     constants: Vec<ThresholdConstant>,
+    /// The first map of classes, in a design with zones.
+    first_map: Option<String>,
     parameters: Vec<(String, String)>,
     fold: u32,
     slot_bits: u32,
@@ -47,12 +53,18 @@ struct SerialTop {
     // Thresholds.
     half_level: bool,
     temporal_level: String,
+    keen_temporal_level: String,
     /// The inputs of the array for the levels of features, and the signals connected to them.
     levels: Vec<(&'static str, String)>,
     /// The minima of the scores, that of the last feature first and that of the changed pixels
     /// last.
     minima: Vec<String>,
+    keen_minima: Vec<String>,
     summary_level: String,
+    keen_summary_level: String,
+    off_summary_level: String,
+    /// The ports of the memory of classes, and the signals connected to them.
+    classes: [(&'static str, &'static str); 5],
     summarizes: bool,
     /// True if the ports have displacements.
     displaces: bool,
@@ -77,6 +89,7 @@ pub(crate) fn modules(design: SerialDesign<'_>, top: Top) -> Vec<SourceFile> {
 /// Returns the range of a port whose width depends on the grid; `None` for other ports.
 fn port_range(port: &Port, design: SerialDesign<'_>) -> Option<String> {
     match (port.role, port.per_lane, port.width) {
+        (PortRole::ClassAddress, _, _) => Some(class_address_range()),
         (PortRole::Region | PortRole::ForwardRegion, _, _) => Some(format!("[{REGION_RANGE}:0]")),
         (_, true, 1) => Some(format!("[{}-1:0]", lane_count(design))),
         (_, true, width) => Some(format!("[{}*{width}-1:0]", lane_count(design))),
@@ -104,6 +117,7 @@ fn view(design: SerialDesign<'_>, named: SerialDesign<'_>, top: Top) -> SerialTo
     let memory = design.lane_memory();
     let edge = design.feature(FeatureKind::Edge);
     let runtime = design.threshold_source() == ThresholdSource::Runtime;
+    let [keen_summary_level, off_summary_level] = class_summary_levels(&design);
     SerialTop {
         banner: banner(&named),
         title: title(design, top),
@@ -122,8 +136,9 @@ fn view(design: SerialDesign<'_>, named: SerialDesign<'_>, top: Top) -> SerialTo
         ports: PortLine::aligned(&top.ports(&named), |port| port_range(port, named)),
         constants: threshold_constants(&design)
             .into_iter()
-            .filter(|c| c.name != "EDGE_LEVEL")
+            .filter(|c| !c.name.ends_with("EDGE_LEVEL"))
             .collect(),
+        first_map: first_map(&design),
         parameters: array_parameters(design),
         fold: design.fold(),
         slot_bits: design.slot_bits(),
@@ -136,9 +151,14 @@ fn view(design: SerialDesign<'_>, named: SerialDesign<'_>, top: Top) -> SerialTo
         region_range: REGION_RANGE,
         half_level: edge.is_some() && runtime,
         temporal_level: threshold_signal(&design, PortRole::TemporalLevel),
-        levels: FeatureKind::ALL.iter().filter_map(|&kind| level_input(design, kind)).collect(),
-        minima: minima(design),
+        keen_temporal_level: keen_signal(&design, PortRole::TemporalLevel),
+        levels: FeatureKind::ALL.iter().flat_map(|&kind| level_inputs(design, kind)).collect(),
+        minima: minima(design, threshold_signal),
+        keen_minima: minima(design, keen_signal),
         summary_level: summary_level_signal(&design),
+        keen_summary_level,
+        off_summary_level,
+        classes: class_connections(&design),
         summarizes: design.periphery().is_some(),
         displaces: design.flow_search().is_some(),
         sync: FrameSync::with_ready(&design, frame_beats(design)),
@@ -228,6 +248,7 @@ fn array_parameters(design: SerialDesign<'_>) -> Vec<(String, String)> {
         ];
         list.extend(means.map(named));
     }
+    list.extend(class_parameters(&design));
     list
 }
 
@@ -253,52 +274,72 @@ fn score_index(design: SerialDesign<'_>, kind: FeatureKind) -> (String, String) 
     (format!("{}_INDEX", parameter_prefix(kind)), index.to_string())
 }
 
-/// Returns the input of the array for the level of a feature, and the signal connected to it. The
-/// array has this input even if the design lacks the feature. Returns `None` for a feature that has
-/// no level.
-fn level_input(design: SerialDesign<'_>, kind: FeatureKind) -> Option<(&'static str, String)> {
-    match kind {
-        FeatureKind::Edge => Some(("edge_half_i", half_edge_level(design))),
-        FeatureKind::Corner => Some(("corner_level_i", pixel_level(design, kind))),
-        FeatureKind::Segment => Some(("segment_level_i", pixel_level(design, kind))),
+/// Returns the inputs of the array for the level of a feature, that of keen regions last, and the
+/// signals connected to them. The array has these inputs even if the design lacks the feature. The
+/// list is empty for a feature that has no level.
+fn level_inputs(design: SerialDesign<'_>, kind: FeatureKind) -> Vec<(&'static str, String)> {
+    let names = match kind {
+        FeatureKind::Edge => ["edge_half_i", "keen_edge_half_i"],
+        FeatureKind::Corner => ["corner_level_i", "keen_corner_level_i"],
+        FeatureKind::Segment => ["segment_level_i", "keen_segment_level_i"],
         FeatureKind::Mad
         | FeatureKind::Variance
         | FeatureKind::Range
         | FeatureKind::Surface
-        | FeatureKind::Flow => None,
-    }
+        | FeatureKind::Flow => return Vec::new(),
+    };
+    let of_class = |class, signal: fn(&Design, PortRole) -> String| match kind {
+        FeatureKind::Edge => half_edge_level(design, class, signal),
+        _ => pixel_level(design, kind, signal),
+    };
+    let own = of_class(RegionClass::Normal, threshold_signal);
+    let keen = of_class(RegionClass::Keen, keen_signal);
+    names.into_iter().zip([own, keen]).collect()
 }
 
 /// Returns the signal of a level that has the bits of a pixel, or zero without the feature.
-fn pixel_level(design: SerialDesign<'_>, kind: FeatureKind) -> String {
-    let given = design.feature(kind).map(|_| threshold_signal(&design, PortRole::Level(kind)));
+fn pixel_level(
+    design: SerialDesign<'_>,
+    kind: FeatureKind,
+    signal: fn(&Design, PortRole) -> String,
+) -> String {
+    let given = design.feature(kind).map(|_| signal(&design, PortRole::Level(kind)));
     given.unwrap_or_else(|| format!("{}'d0", design.pixel_bits()))
 }
 
-/// Returns floor(level / 2) of `edge`, two bits wider than a pixel.
-fn half_edge_level(design: SerialDesign<'_>) -> String {
+/// Returns floor(level / 2) of `edge` in regions of a class, two bits wider than a pixel.
+fn half_edge_level(
+    design: SerialDesign<'_>,
+    class: RegionClass,
+    signal: fn(&Design, PortRole) -> String,
+) -> String {
     let width = design.pixel_bits() + 2;
-    let Some(edge) = design.feature(FeatureKind::Edge) else { return format!("{width}'d0") };
+    let thresholds = design.class_thresholds(class);
+    let edge = thresholds.features.iter().find(|feature| feature.kind() == FeatureKind::Edge);
+    let Some(edge) = edge else { return format!("{width}'d0") };
     match design.threshold_source() {
         ThresholdSource::Constant => {
             format!("{width}'d{}", edge.level().expect("edge has a level") / 2)
         }
         ThresholdSource::Runtime => {
-            let half = format!("edge_level_i[{}:1]", edge.level_bits() - 1);
+            let level = signal(&design, PortRole::Level(FeatureKind::Edge));
+            let half = format!("{level}[{}:1]", edge.level_bits() - 1);
             zero_extended(&half, edge.level_bits() - 1, width)
         }
     }
 }
 
-fn minima(design: SerialDesign<'_>) -> Vec<String> {
+/// Returns the minima of all scores, that of the last feature first. `signal` returns the signal of a
+/// threshold.
+fn minima(design: SerialDesign<'_>, signal: fn(&Design, PortRole) -> String) -> Vec<String> {
     let width = design.max_score_bits();
     let minimum = |feature: &SpatialFeature| {
-        let name = threshold_signal(&design, PortRole::MinScore(feature.kind()));
+        let name = signal(&design, PortRole::MinScore(feature.kind()));
         zero_extended(&name, feature.score_bits(), width)
     };
     let mut list: Vec<_> = design.features().iter().rev().map(minimum).collect();
     list.push(zero_extended(
-        &threshold_signal(&design, PortRole::TemporalMinCount),
+        &signal(&design, PortRole::TemporalMinCount),
         design.count_bits(),
         width,
     ));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The modules that may be on top of a design: its RPU or lane, its array, and the core on AXI.
 
+use crate::class_map::has_normal_map;
 use foveate_design::{ArrayStructure, CoreInterface, Design, Hardware, InterfaceKind, Port};
 
 /// The top module of a core on AXI, which contains the array.
@@ -59,12 +60,17 @@ impl Top {
     }
 
     /// Returns the parameters with their values in the design, which are the defaults in its
-    /// Verilog. The widths of the array's ports depend on them.
+    /// Verilog. The widths of the array's ports depend on them. A first map of classes is left out
+    /// unless all of its regions are normal.
     #[must_use]
     pub fn parameters(self, design: &Design) -> Vec<Parameter> {
         match self {
             Self::Rpu => Vec::new(),
-            Self::Rcm => vec![("COLUMNS", design.columns()), ("ROWS", design.rows())],
+            Self::Rcm => {
+                let grid = [("COLUMNS", design.columns()), ("ROWS", design.rows())];
+                let normal_map = has_normal_map(design).then_some(("CLASSES", 0));
+                grid.into_iter().chain(normal_map).collect()
+            }
         }
     }
 

@@ -27,8 +27,9 @@ pub struct CoreInput<'a> {
     pub forward_ready: bool,
     /// Values of the threshold inputs.
     pub thresholds: &'a ThresholdInputs,
-    /// Values of the inputs that only a core with zones has. Without them every region is
-    /// [`foveate_design::RegionClass::Normal`].
+    /// Values of the inputs that only a core with zones has. Without them all classes have the same
+    /// thresholds, and nothing is written to the memory of classes. Every region of a pipelined
+    /// core is then [`foveate_design::RegionClass::Normal`].
     pub zones: Option<ZoneInputs<'a>>,
 }
 
@@ -78,14 +79,14 @@ pub trait CycleModel {
         u64::from(!self.is_ready())
     }
 
-    /// Returns a lower bound of the clocks without valid inputs for which the outputs stay as they
-    /// are.
+    /// Returns a lower bound of the clocks without valid inputs, and without a write or commit to
+    /// the memory of classes, for which the outputs stay as they are.
     fn quiet_clocks(&self) -> u64 {
         0
     }
 
-    /// Applies [`CycleModel::quiet_clocks`] edges at once, without a reset and without valid
-    /// inputs. There may be none.
+    /// Applies [`CycleModel::quiet_clocks`] edges at once, without a reset, without valid inputs,
+    /// and without a write or commit to the memory of classes. There may be none.
     fn skip_quiet_clocks(&mut self) {}
 
     /// Returns true if outputs of pixels that were taken are still to come without another frame.

@@ -5,14 +5,15 @@
 //! [`functional`] is the reference: it takes whole frames and returns scores, decisions and the
 //! rendered frame. [`pipelined`], [`serial`] and [`raster`] model every port of the hardware after
 //! every clock edge, and [`FrameSync`] selects the frames that reach them. All models are written
-//! from `docs/contract.md`, `docs/timing.md`, `docs/serial.md`, `docs/raster.md` and `docs/sync.md`
-//! alone, never from the Verilog, so that agreement with the Verilog is evidence for both. The
-//! models share only arithmetic without a state: that of one 3x3 window in [`window`],
-//! [`denoising`] and [`feature`], and the scores and the decision of one region. All arithmetic is
-//! in integers. The crate reads no files and no Verilog, and makes no packets: crate `cosim`
-//! compares the packets of a core with the outcomes of [`functional`].
+//! from `docs/contract.md`, `docs/timing.md`, `docs/serial.md`, `docs/raster.md`, `docs/zones.md`
+//! and `docs/sync.md` alone, never from the Verilog, so that agreement with the Verilog is evidence
+//! for both. The models share only arithmetic without a state: that of one 3x3 window in
+//! [`window`], [`denoising`] and [`feature`], and the scores and the decision of one region. All
+//! arithmetic is in integers. The crate reads no files and no Verilog, and makes no packets: crate
+//! `cosim` compares the packets of a core with the outcomes of [`functional`].
 #![forbid(unsafe_code)]
 
+mod class_memory;
 mod conversions;
 mod core_models;
 mod cycle_model;
@@ -54,5 +55,5 @@ pub use scorer::RegionScorer;
 pub use serial::{SerialOutput, SerialRcm};
 pub use stream::{region_border, region_stream};
 pub use temporal::{changed_pixels, temporal_differences};
-pub use thresholds::{ThresholdInputs, ZoneInputs};
+pub use thresholds::{ClassMapInputs, ThresholdInputs, ZoneInputs};
 pub use window_filter::filtered_pixel;

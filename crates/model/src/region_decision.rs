@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The scores and the decision of one region in one frame.
 
-use foveate_camera::{Camera, FeatureKind};
+use foveate_camera::{Camera, FeatureKind, RegionClass};
 
+use crate::RegionScorer;
 use crate::conversions::index;
 use crate::decision::combine_votes;
-use crate::{RegionScorer, ThresholdInputs};
+use crate::thresholds::ClassThresholdInputs;
 
 /// The scores and the decision of one region in one frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -17,22 +18,24 @@ pub(crate) struct RegionDecision {
 }
 
 impl RegionDecision {
-    /// Scores and decides the region that the scorer has taken. `reference` is `None` if there is
-    /// no valid one.
+    /// Scores and decides the region that the scorer has taken, by the rules of its class.
+    /// `reference` is `None` if there is no valid one.
     pub(crate) fn from_scorer(
         camera: &Camera,
         scorer: &RegionScorer,
         reference: Option<&[u16]>,
-        thresholds: &ThresholdInputs,
+        (class, thresholds): (RegionClass, ClassThresholdInputs<'_>),
     ) -> Self {
+        let thresholds = thresholds.of(class);
         let scores = scorer.scores(reference, thresholds);
         let temporal_count = scorer.temporal_count(reference, thresholds);
         let minima = camera.features().iter().zip(&thresholds.min_score);
         let votes = minima.zip(&scores).map(|((_, min), score)| score >= min);
+        let voted = combine_votes(camera.combine(), votes);
         Self {
             scores,
             temporal_count,
-            srs: combine_votes(camera.combine(), votes),
+            srs: class.forced_srs().unwrap_or(voted),
             trs: temporal_count >= thresholds.temporal_min_count,
         }
     }

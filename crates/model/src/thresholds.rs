@@ -24,12 +24,27 @@ pub struct ThresholdInputs {
 /// The inputs of a core with zones in one clock.
 #[derive(Clone, Copy, Debug)]
 pub struct ZoneInputs<'a> {
-    /// Values of `zone_i`, one per lane.
+    /// Values of `zone_i` of a pipelined core, one per lane. Other cores ignore them.
     pub classes: &'a [RegionClass],
+    /// Inputs of the memory of classes of a serial or raster core. A pipelined core ignores them.
+    pub map: ClassMapInputs,
     /// The thresholds of keen regions.
     pub keen: &'a ThresholdInputs,
     /// Threshold of the summaries of regions that are off.
     pub off_summary_level: u32,
+}
+
+/// The inputs of a memory of classes in one clock; see `docs/zones.md`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ClassMapInputs {
+    /// Value of `zone_write_i`.
+    pub write: bool,
+    /// Value of `zone_address_i`.
+    pub address: u32,
+    /// Value of `zone_word_i`.
+    pub word: u32,
+    /// Value of `zone_commit_i`.
+    pub commit: bool,
 }
 
 /// The thresholds of all classes in one clock.
@@ -71,7 +86,7 @@ impl<'a> ClassThresholdInputs<'a> {
 }
 
 /// The thresholds of all classes as the constants of a core.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct ThresholdConstants {
     own: ThresholdInputs,
     keen: ThresholdInputs,

@@ -4,6 +4,7 @@ rtl/carry_adder.v
 rtl/magnitude_above.v
 rtl/region_mean.v
 rtl/vote.v
+rtl/class_memory.v
 rtl/raster_memory.v
 rtl/word_delay.v
 rtl/bit_delay.v
@@ -40,6 +41,7 @@ rtl/raster_deviation.v
 rtl/raster_parts.v
 rtl/raster_blocks.v
 rtl/raster_summary.v
+rtl/raster_classes.v
 rtl/raster_decision.v
 rtl/raster_forward.v
 rtl/raster_core.v

@@ -18,6 +18,7 @@ rtl/serial_neighbor.v
 rtl/serial_raster_feed.v
 rtl/serial_shown.v
 rtl/serial_sides.v
+rtl/class_memory.v
 rtl/serial_decision.v
 rtl/serial_means.v
 rtl/serial_summary.v

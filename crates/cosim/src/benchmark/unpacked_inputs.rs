@@ -4,7 +4,7 @@
 use std::io::Read as _;
 
 use foveate_design::{Design, PortRole, RegionClass};
-use foveate_model::{CoreInput, ThresholdInputs, ZoneInputs};
+use foveate_model::{ClassMapInputs, CoreInput, ThresholdInputs, ZoneInputs};
 
 use crate::error::CosimError;
 use crate::field::RecordField;
@@ -44,6 +44,7 @@ struct ClockControls {
 #[derive(Clone, Debug)]
 struct ClockZones {
     classes: Vec<RegionClass>,
+    map: ClassMapInputs,
     keen: ThresholdInputs,
     off_summary_level: u32,
 }
@@ -131,6 +132,10 @@ impl ClockControls {
                 PortRole::TemporalLevel => thresholds.temporal_level = word(value()),
                 PortRole::TemporalMinCount => thresholds.temporal_min_count = word(value()),
                 PortRole::SummaryLevel => thresholds.summary_level = word(value()),
+                PortRole::ClassWrite => zones.map.write = value() == 1,
+                PortRole::ClassAddress => zones.map.address = word(value()),
+                PortRole::ClassWord => zones.map.word = word(value()),
+                PortRole::ClassCommit => zones.map.commit = value() == 1,
                 PortRole::OffSummaryLevel => zones.off_summary_level = word(value()),
                 // Pixels are read separately, outputs are not applied, and the borders belong to a
                 // single RPU.
@@ -160,6 +165,7 @@ impl ClockControls {
         } = self;
         let zones = zones.as_ref().map(|zones| ZoneInputs {
             classes: &zones.classes,
+            map: zones.map,
             keen: &zones.keen,
             off_summary_level: zones.off_summary_level,
         });
@@ -181,6 +187,7 @@ impl ClockZones {
     fn of_design(design: &Design) -> Self {
         Self {
             classes: Vec::new(),
+            map: ClassMapInputs::default(),
             keen: ThresholdInputs::of_class(design, RegionClass::Keen),
             off_summary_level: ThresholdInputs::of_class(design, RegionClass::Off).summary_level,
         }

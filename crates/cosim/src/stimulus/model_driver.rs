@@ -154,6 +154,8 @@ impl<'a, Receiver: ClockReceiver> ModelDriver<'a, Receiver> {
             self.clock(true, valid, None, None)?;
         }
         self.cuts_next_reset = false;
+        let load = self.thresholds.load_classes();
+        self.idle(load)?;
         if let Some(store) = &mut self.external_store {
             store.begin(store_fault);
         }
@@ -403,7 +405,9 @@ impl<'a, Receiver: ClockReceiver> ModelDriver<'a, Receiver> {
         let unused = self.unused.pixels(self.feed.width(), self.max, &mut self.random);
         let thresholds = self.thresholds.current();
         let sof = self.has_frame_sync;
-        let input = CoreInput { sof, border: self.border, ..CoreInput::idle(&unused, &thresholds) };
+        let zones = self.thresholds.zones().map(PortZones::inputs_without_writes);
+        let input =
+            CoreInput { sof, border: self.border, zones, ..CoreInput::idle(&unused, &thresholds) };
         self.core.skip_quiet_clocks();
         self.codec.encode_inputs(self.receiver.inputs(), &input, &mut self.input);
         self.hand_over(clocks)

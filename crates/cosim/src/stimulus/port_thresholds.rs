@@ -68,6 +68,12 @@ impl<'a> PortThresholds<'a> {
         self.turn = 0;
     }
 
+    /// Returns the number of clocks that the next frame must wait until the classes of the sequence are
+    /// in the core, which are written from the next clock on.
+    pub(super) fn load_classes(&mut self) -> u64 {
+        self.zones.as_mut().map_or(0, |zones| zones.load_clocks() as u64)
+    }
+
     /// Returns the thresholds at the ports.
     pub(super) fn current(&self) -> ThresholdInputs {
         self.current
@@ -154,7 +160,14 @@ impl<'a> PortThresholds<'a> {
         let mut stream = Vec::new();
         region_stream(self.design, frame, region, &mut stream);
         let (reference, shown) = (core.reference(region), core.summary(region));
-        self.current = self.aimer.near_region(region, &stream, reference, shown, largest, random);
+        let mut near =
+            || self.aimer.near_region(region, &stream, reference, shown, largest, random);
+        self.current = near();
+        // The class of the region decides which of the thresholds are in use.
+        if let Some(zones) = &mut self.zones {
+            zones.keen = near();
+            zones.off_summary_level = near().summary_level;
+        }
     }
 
     /// Begins a clock: thresholds that have no effect at it, or that change at every clock, are

@@ -80,7 +80,9 @@ pub(crate) fn rcm_interface(design: &Design) -> CoreInterface {
                     Some(_) => "a pixel of every active region, or a mean of every summary",
                 };
             }
-            StreamRole::References
+            StreamRole::ClassWords
+            | StreamRole::ClassCommits
+            | StreamRole::References
             | StreamRole::StoredWords
             | StreamRole::Scores
             | StreamRole::LostRegions => {}

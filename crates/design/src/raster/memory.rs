@@ -5,8 +5,8 @@
 use super::RasterTiming;
 use super::feature::FeatureAccumulation;
 use crate::{
-    Design, FrameStoreKind, Periphery, RasterDesign, ReferencePolicy, ReferenceWriteTime,
-    SpatialFeature, bits_for, index_bits,
+    CLASS_BITS, CLASS_WORD_BITS, Design, FrameStoreKind, Periphery, RasterDesign, ReferencePolicy,
+    ReferenceWriteTime, SpatialFeature, bits_for, index_bits,
 };
 
 /// Bits of the number of a row of regions in a queue, modulo 8.
@@ -55,9 +55,16 @@ impl RasterMemory {
             sizes.scores(design),
             sizes.queues(design),
             means.unwrap_or_default(),
+            design.zones().map(|_| class_banks(&design)).into_iter().collect(),
         ]
         .concat()
     }
+}
+
+/// Returns the two banks of the memory of classes.
+fn class_banks(design: &Design) -> RasterMemory {
+    let words = 2 << design.class_address_bits();
+    RasterMemory { contents: "classes of regions, in two banks", words, bits: CLASS_WORD_BITS }
 }
 
 /// The numbers that the sizes of the memories are derived from.
@@ -236,8 +243,12 @@ impl MemorySizes {
         };
         let decision_bits = design.count_bits() + design.features().iter().map(bits).sum::<u32>();
         let decision_bits = decision_bits + 2 * u32::from(design.periphery().is_some());
+        let class_bits = design.zones().map_or(0, |_| CLASS_BITS);
         list.extend(design.second_pass_mean().map(|mean| {
-            queue("regions that wait for the second pass", mean.mean_bits + start + decision_bits)
+            queue(
+                "regions that wait for the second pass",
+                mean.mean_bits + start + decision_bits + class_bits,
+            )
         }));
         let bits = self.reference.bits_per_region();
         if bits > 0 {

@@ -2,6 +2,7 @@
 //! The interface of a raster core. Its streams depend on the frame store and on whether pixels
 //! leave.
 
+use crate::class_memory::class_streams;
 use crate::interface::{BeatRegion, CoreInterface, CoreStream, StreamRole};
 use crate::port::{decision_ports, sync_input, sync_output};
 use crate::thresholds::threshold_ports;
@@ -18,6 +19,7 @@ pub const FRAME_NUMBERS: u32 = 256;
 pub(super) fn interface(design: RasterDesign<'_>) -> CoreInterface {
     let word = design.pixels_per_clock() * design.pixel_bits();
     let mut streams = vec![pixel_stream(&design, word)];
+    streams.extend(class_streams(&design));
     if design.has_external_store() {
         let kept = design.temporal().reference.bits_per_pixel(design.pixel_bits());
         let word = design.pixels_per_clock() * kept;

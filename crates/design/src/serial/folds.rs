@@ -85,7 +85,8 @@ fn lane_blocks(design: SerialDesign<'_>) -> u64 {
 
 fn least_steps((phase, steps): &(SerialPhase, u64)) -> u64 {
     match phase {
-        SerialPhase::RotateCount
+        SerialPhase::PassClasses
+        | SerialPhase::RotateCount
         | SerialPhase::ComputeMeans
         | SerialPhase::RotateScore(_)
         | SerialPhase::UnloadPixels

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The interface of a serial array.
 
+use crate::class_memory::class_streams;
 use crate::interface::{BeatRegion, CoreInterface, CoreStream, StreamRole};
 use crate::port::{decision_ports, sync_input, sync_output};
 use crate::thresholds::threshold_ports;
@@ -78,7 +79,10 @@ pub(crate) fn interface(design: SerialDesign<'_>) -> CoreInterface {
         (PixelFeed::Raster, _) => BeatRegion::Number(PortRole::ForwardRegion),
     };
     let forwarded = CoreStream { region, ..forwarded };
-    CoreInterface::new(vec![pixels, scores, decisions, forwarded], threshold_ports(&design))
+    let mut streams = vec![pixels];
+    streams.extend(class_streams(&design));
+    streams.extend([scores, decisions, forwarded]);
+    CoreInterface::new(streams, threshold_ports(&design))
 }
 
 /// Returns the meaning of a beat of the forward stream, and the documentation of its `valid` port.

@@ -10,6 +10,8 @@ use crate::{DenoiseFilter, DesignTiming, FeatureKind, Pipelining, PixelFeed, Ser
 /// A phase of the lanes for one slot. The variants are in the order of the phases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum SerialPhase {
+    /// The classes of the regions of the slot go to their lanes.
+    PassClasses,
     /// The pixels are denoised. Each of them is compared with its reference.
     DenoiseAndCompare,
     /// The denoised pixels beyond the border of the frame are replaced by repetitions of those at
@@ -37,6 +39,7 @@ pub enum SerialPhase {
 impl fmt::Display for SerialPhase {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::PassClasses => f.pad("classes"),
             Self::DenoiseAndCompare => f.pad("denoise and temporal"),
             Self::RepeatBorder => f.pad("border"),
             Self::CompareRaw => f.pad("temporal"),
@@ -246,6 +249,9 @@ fn phases(design: SerialDesign<'_>) -> Vec<(SerialPhase, u64)> {
     let read = u64::from(read_latency(design));
     let rotation = u64::from(settling_steps(design)) + lanes;
     let mut list = Vec::new();
+    if design.zones().is_some() {
+        list.push((SerialPhase::PassClasses, lanes));
+    }
     match design.filter() {
         DenoiseFilter::Median3x3 | DenoiseFilter::Switching3x3 | DenoiseFilter::Binomial3x3 => {
             let pixels = u64::from(design.denoised_side()).pow(2);

@@ -155,7 +155,7 @@ fn a_key_of_an_organization_is_refused_with_one_message() {
 #[test]
 fn a_key_of_all_is_taken_by_all_with_its_default() {
     let mut checked = 0;
-    // Only one organization has zones so far.
+    // The keys of zones are those of tables in lists, or need other keys.
     let is_of_all = |row: &KeyRow| owners(row).is_empty() && !row.key.starts_with("zones.");
     for row in rows().iter().filter(|row| is_of_all(row)) {
         // The default of a threshold of a feature depends on the feature.
@@ -179,19 +179,13 @@ fn a_key_of_all_is_taken_by_all_with_its_default() {
 }
 
 #[test]
-fn only_pipelined_has_zones() {
-    for organization in Organization::NAMES {
-        let found =
-            validate_with(&[&format!("hardware.organization=\"{organization}\""), "zones={}"]);
-        let expected = match *organization {
-            "pipelined" => Ok(()),
-            _ => Err(format!(
-                "`zones` = {{...}} cannot be combined with organization = \"{organization}\"; leave \
-                 the table [zones] out, or use organization = \"pipelined\""
-            )),
-        };
-        assert_eq!(found, expected);
-    }
+fn a_core_on_axi_has_no_zones() {
+    let raster = "hardware.organization=\"raster\"";
+    assert_eq!(validate_with(&[raster, "zones={}"]), Ok(()));
+    let refused = "`zones` = {...} cannot be combined with interface = \"axi\"; leave the table [zones] \
+                   out, or use interface = \"ports\"";
+    let found = validate_with(&[raster, "hardware.interface=\"axi\"", "zones={}"]);
+    assert_eq!(found, Err(refused.to_owned()));
 }
 
 #[test]

@@ -2,7 +2,7 @@
 //! The delay of decisions: a fixed number of clocks after the last word of a region has come to the
 //! tail, or after its second pass.
 
-use foveate_design::{RasterTiming, RegionAction};
+use foveate_design::{RasterTiming, RegionAction, RegionClass};
 
 use super::due_queue::{DueQueue, take_due};
 use crate::region_decision::RegionDecision;
@@ -16,6 +16,9 @@ pub(super) struct CompletedRegion {
     pub(super) row: u64,
     /// The edge at which the last word came.
     pub(super) completion_edge: u64,
+    /// The class of the region in its frame. The region may be scored when frames already use
+    /// another map.
+    pub(super) class: RegionClass,
 }
 
 /// A region of one frame with its scores and relevance bits, before its decision is on the ports. It

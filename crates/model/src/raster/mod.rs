@@ -23,6 +23,8 @@
 //! ```
 //!
 //! With an external frame store, a region is scored when the reference of its last word is taken.
+//! In a core with zones, the class of a region is looked up when its last word comes to the tail,
+//! because frames may use another map when the region is scored.
 
 mod advances;
 mod decisions;

@@ -16,6 +16,8 @@ pub struct RasterOutput {
     pub ready: bool,
     /// Value of `sync_error_o`.
     pub sync_error: bool,
+    /// Value of `zone_pending_o`.
+    pub zone_pending: bool,
     /// Value of `reference_ready_o`.
     pub reference_ready: bool,
     /// Value of `store_valid_o`.
@@ -78,6 +80,7 @@ impl RasterOutput {
         Self {
             ready: true,
             sync_error: false,
+            zone_pending: false,
             reference_ready: false,
             store_valid: false,
             store_pixels: vec![0; word_pixels],
@@ -164,6 +167,7 @@ impl RasterOutput {
         let value = match role {
             PortRole::Ready => self.ready.into(),
             PortRole::SyncError => self.sync_error.into(),
+            PortRole::ClassPending => self.zone_pending.into(),
             PortRole::ReferenceReady => self.reference_ready.into(),
             PortRole::StoreValid => self.store_valid.into(),
             PortRole::StorePixel => return append_pixels(values, &self.store_pixels),

@@ -11,9 +11,11 @@ use super::ports::RasterOutput;
 use super::readout::Readout;
 use super::regions::RasterRegions;
 use super::staleness::RowStaleness;
+use crate::FrameSync;
+use crate::class_memory::ClassMemory;
 use crate::conversions::index;
 use crate::cycle_model::{CoreInput, CycleModel};
-use crate::{FrameSync, ThresholdInputs};
+use crate::thresholds::{ClassThresholdInputs, ThresholdConstants};
 
 /// The cycle-level model of a raster core. A new one is in the state after a reset.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,8 +27,10 @@ pub struct RasterRcm {
     /// Side of a region N in pixels.
     side: u32,
     /// The thresholds, if they are constants of the core.
-    constants: Option<ThresholdInputs>,
+    constants: Option<ThresholdConstants>,
     sync: FrameSync,
+    /// The memory of classes, if the core has zones.
+    classes: Option<ClassMemory>,
     advances: AdvanceCounter,
     incoming_frame: IncomingFrame,
     staleness: RowStaleness,
@@ -57,8 +61,9 @@ impl RasterRcm {
             timing,
             columns: design.columns(),
             side: design.region_size(),
-            constants: ThresholdInputs::constants(&design),
+            constants: ThresholdConstants::of_design(&design),
             sync: FrameSync::new(&design),
+            classes: ClassMemory::of_design(&design),
             advances: AdvanceCounter::new(timing),
             incoming_frame: IncomingFrame::new(design),
             staleness: RowStaleness::new(&timing),
@@ -89,7 +94,8 @@ impl RasterRcm {
         self.now += 1;
         self.clocks_to_ready = self.clocks_to_ready.saturating_sub(1);
         self.take_reference(input);
-        self.advance(input);
+        let has_advanced = self.advance(input);
+        self.step_classes(input, has_advanced);
         self.step_readout(input.forward_ready);
         let scored_region = self.decisions.step(self.now);
         self.decided = scored_region.map(|scored_region| self.regions.decide(scored_region));
@@ -158,6 +164,9 @@ impl RasterRcm {
 
     fn reset(&mut self) {
         self.sync.reset();
+        if let Some(classes) = &mut self.classes {
+            classes.reset();
+        }
         self.advances.reset();
         self.staleness.reset();
         self.regions.reset();
@@ -171,9 +180,10 @@ impl RasterRcm {
         self.output = RasterOutput::after_reset(index(self.timing.word_pixels));
     }
 
-    fn advance(&mut self, input: &CoreInput<'_>) {
+    /// Applies an edge to the position in the frame. Returns true if the core advances.
+    fn advance(&mut self, input: &CoreInput<'_>) -> bool {
         let takes = self.sync.step(input.valid, input.sof, self.is_open);
-        let Some(advance) = self.advances.step(takes) else { return };
+        let Some(advance) = self.advances.step(takes) else { return false };
         if let Some(place) = advance.word {
             self.incoming_frame.write(place, input.pixels);
         }
@@ -181,13 +191,23 @@ impl RasterRcm {
             self.clocks_to_ready = self.timing.edges_to_ready();
         }
         if let Some(place) = advance.tail {
-            self.take_word_in_tail(place, input.thresholds);
+            self.take_word_in_tail(place, ClassThresholdInputs::new(input.thresholds, input.zones));
+        }
+        true
+    }
+
+    /// Applies an edge to the memory of classes. A frame occupies the edges from its first advance
+    /// up to its last one.
+    fn step_classes(&mut self, input: &CoreInput<'_>, has_advanced: bool) {
+        let is_occupied = has_advanced || !self.advances.is_between_frames();
+        if let Some(classes) = &mut self.classes {
+            classes.step(input.zones.map(|zones| zones.map).unwrap_or_default(), is_occupied);
         }
     }
 
     /// Processes a word that comes to the tail, which may be the first of a row of regions or the
     /// last of a region.
-    fn take_word_in_tail(&mut self, place: WordPosition, applied: &ThresholdInputs) {
+    fn take_word_in_tail(&mut self, place: WordPosition, applied: ClassThresholdInputs<'_>) {
         if place.column == 0 && place.row.is_multiple_of(self.side) {
             self.staleness.begin_row(self.now);
         }
@@ -206,10 +226,12 @@ impl RasterRcm {
         let region_words = self.timing.region_row_words;
         let is_last = (place.column + 1).is_multiple_of(region_words)
             && (place.row + 1).is_multiple_of(self.side);
+        let region = place.row / self.side * self.columns + place.column / region_words;
         is_last.then(|| CompletedRegion {
-            region: place.row / self.side * self.columns + place.column / region_words,
+            region,
             row: self.staleness.current_row(),
             completion_edge: self.now,
+            class: self.classes.as_ref().map(|classes| classes.class(region)).unwrap_or_default(),
         })
     }
 
@@ -221,13 +243,13 @@ impl RasterRcm {
         if let Some(completed) =
             external_store.take_reference(self.now, input.reference_valid, pixels)
         {
-            self.score_region(completed, input.thresholds);
+            self.score_region(completed, ClassThresholdInputs::new(input.thresholds, input.zones));
         }
     }
 
     /// Scores a region, all of whose references are known.
-    fn score_region(&mut self, completed: CompletedRegion, applied: &ThresholdInputs) {
-        let thresholds = self.constants.as_ref().unwrap_or(applied);
+    fn score_region(&mut self, completed: CompletedRegion, applied: ClassThresholdInputs<'_>) {
+        let thresholds = self.constants.as_ref().map_or(applied, ThresholdConstants::by_class);
         let taken = self.external_store.as_ref().map(ExternalStorePorts::references);
         let padded = self.incoming_frame.padded();
         let scored = self.regions.score_region(completed, padded, taken, thresholds);
@@ -272,6 +294,7 @@ impl RasterRcm {
             && !(waits && self.is_pending());
         self.output.ready = self.is_open && !self.sync.is_filling();
         self.output.sync_error = self.sync.is_error();
+        self.output.zone_pending = self.classes.as_ref().is_some_and(ClassMemory::is_pending);
         self.output.set_decision_ports(self.decided.as_ref());
         self.output.set_forward_ports(self.readout.shown_word());
         self.output.set_lost_count(self.readout.lost_count());

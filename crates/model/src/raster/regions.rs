@@ -9,7 +9,8 @@ use super::forward_word::{DepartingRegion, ForwardWord};
 use crate::conversions::index;
 use crate::periphery::{ShownSummary, no_summaries};
 use crate::region_decision::RegionDecision;
-use crate::{RegionScorer, ThresholdInputs, region_border, region_pixels, region_stream};
+use crate::thresholds::ClassThresholdInputs;
+use crate::{RegionScorer, region_border, region_pixels, region_stream};
 
 /// The references and the summaries of all regions.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,18 +61,18 @@ impl RasterRegions {
     /// whatever its pixels are.
     pub(super) fn score_region(
         &mut self,
-        CompletedRegion { region, row, .. }: CompletedRegion,
+        CompletedRegion { region, row, class, .. }: CompletedRegion,
         padded: &Frame,
         taken: Option<&Frame>,
-        thresholds: &ThresholdInputs,
+        thresholds: ClassThresholdInputs<'_>,
     ) -> Box<ScoredRasterRegion> {
         let mut stream = Vec::new();
         region_stream(&self.camera, padded, region, &mut stream);
         self.scorer.load(stream.into_iter(), region_border(&self.camera, region));
         let taken = taken.map(|frame| self.region_pixels_of(frame, region));
         let reference = self.reference(region).map(|own| taken.as_deref().unwrap_or(own));
-        let decision =
-            RegionDecision::from_scorer(&self.camera, &self.scorer, reference, thresholds);
+        let rules = (class, thresholds);
+        let decision = RegionDecision::from_scorer(&self.camera, &self.scorer, reference, rules);
         let scored = self.scorer.pixel_rows().concat();
         match self.camera.temporal().reference {
             ReferencePolicy::Previous => {
@@ -82,7 +83,7 @@ impl RasterRegions {
         }
         let payload = self.scorer.payload_rows().concat();
         let frame = row / u64::from(self.camera.rows());
-        let (means, summary_level) = (self.scorer.means(), thresholds.summary_level);
+        let (means, summary_level) = (self.scorer.means(), thresholds.summary_level(class));
         Box::new(ScoredRasterRegion {
             region,
             row,

@@ -42,6 +42,11 @@ impl FrameIntake {
         self.taken = 0;
     }
 
+    /// Returns true if no pixel has been taken since the reset.
+    pub(super) fn is_empty(&self) -> bool {
+        self.taken == 0
+    }
+
     /// Returns true if the last pixel of a frame has been taken, and none of the next frame.
     pub(super) fn is_full(&self) -> bool {
         let frame = match &self.buffer {

@@ -17,7 +17,9 @@
 //!
 //! A frame is scored and decided as a whole at the edge that takes its last pixel, because
 //! thresholds stay constant. The outputs show its scores, decisions, pixels and means when they are
-//! due. [`SerialRcm::skip`] skips any number of clocks in which the outputs do not change.
+//! due. The classes of its regions in a core with zones come from the memory of classes, whose map
+//! does not change while a frame is under way. [`SerialRcm::skip`] skips any number of clocks in
+//! which the outputs do not change.
 
 mod intake;
 mod lane_streams;

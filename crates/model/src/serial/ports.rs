@@ -10,6 +10,8 @@ pub struct SerialOutput {
     pub ready: bool,
     /// Value of `sync_error_o`.
     pub sync_error: bool,
+    /// Value of `zone_pending_o`. It is 0 if the design has no such port.
+    pub zone_pending: bool,
     /// Value of `score_valid_o`.
     pub score_valid: bool,
     /// Value of `score_index_o`: 0 for the temporal count, 1.. for the features in the order of the
@@ -70,6 +72,7 @@ impl SerialOutput {
         let value = match role {
             PortRole::Ready => self.ready.into(),
             PortRole::SyncError => self.sync_error.into(),
+            PortRole::ClassPending => self.zone_pending.into(),
             PortRole::ScoreValid => self.score_valid.into(),
             PortRole::ScoreIndex => self.score_index.into(),
             PortRole::Region => self.region.into(),

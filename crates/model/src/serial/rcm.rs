@@ -7,20 +7,24 @@ use super::intake::FrameIntake;
 use super::ports::SerialOutput;
 use super::regions::{DecidedSerialRegion, SerialRegions};
 use super::schedule::{ForwardedKind, SerialSchedule, StepOutput};
+use crate::class_memory::ClassMemory;
 use crate::conversions::index;
 use crate::cycle_model::{CoreInput, CycleModel};
-use crate::{FrameSync, ThresholdInputs, region_border};
+use crate::thresholds::{ClassThresholdInputs, ThresholdConstants};
+use crate::{ClassMapInputs, FrameSync, region_border};
 
 /// The cycle-level model of a serial array. A new one is in the state after a reset.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SerialRcm {
     schedule: SerialSchedule,
     /// The thresholds, if they are constants of the core.
-    constants: Option<ThresholdInputs>,
+    constants: Option<ThresholdConstants>,
     feed: PixelFeed,
     borders: Vec<u8>,
     flow: Option<DisplacementPorts>,
     sync: FrameSync,
+    /// The memory of classes, if the core has zones.
+    classes: Option<ClassMemory>,
     intake: FrameIntake,
     regions: SerialRegions,
     stage: SerialStage,
@@ -79,7 +83,7 @@ impl SerialRcm {
             SerialOutput { ready: true, ..SerialOutput::without_valid_bits(intake.port_pixels()) };
         Self {
             schedule: SerialSchedule::new(design),
-            constants: ThresholdInputs::constants(&design),
+            constants: ThresholdConstants::of_design(&design),
             feed: design.feed(),
             flow: DisplacementPorts::new(design),
             borders: (0..design.regions()).map(|region| region_border(&design, region)).collect(),
@@ -87,6 +91,7 @@ impl SerialRcm {
             stage: SerialStage::AFTER_RESET,
             is_forwarding: false,
             sync: FrameSync::new(&design),
+            classes: ClassMemory::of_design(&design),
             intake,
             output,
         }
@@ -104,16 +109,20 @@ impl SerialRcm {
         );
         if input.reset {
             self.reset();
-        } else if self.sync.step(input.valid, input.sof, self.is_open()) {
-            self.take_pixels(input);
         } else {
-            self.advance_clocks(1);
+            if self.sync.step(input.valid, input.sof, self.is_open()) {
+                self.take_pixels(input);
+            } else {
+                self.advance_clocks(1);
+            }
+            self.step_classes(input.zones.map(|zones| zones.map).unwrap_or_default());
         }
         self.update_output();
         &self.output
     }
 
-    /// Applies `clocks` edges at once, without a reset and without a valid pixel.
+    /// Applies `clocks` edges at once, without a reset, without a valid pixel, and without a write
+    /// or commit to the memory of classes.
     ///
     /// # Panics
     /// Panics if the array completes a frame by itself, because it takes pixels then. In that state
@@ -124,6 +133,10 @@ impl SerialRcm {
             self.sync.step(false, false, false);
         }
         self.advance_clocks(clocks);
+        if clocks > 0 {
+            // The edges that a frame occupies come first, so that the last edge decides.
+            self.step_classes(ClassMapInputs::default());
+        }
         self.update_output();
         &self.output
     }
@@ -161,8 +174,9 @@ impl SerialRcm {
         self.clocks_until_open() == 0
     }
 
-    /// Returns a lower bound of the clocks, without a reset and without a valid pixel, for which
-    /// the outputs stay as they are because the array works and outputs nothing.
+    /// Returns a lower bound of the clocks, without a reset, without a valid pixel, and without a
+    /// write or commit to the memory of classes, for which the outputs stay as they are because the
+    /// array works and outputs nothing.
     #[must_use]
     pub fn quiet_clocks(&self) -> u64 {
         let SerialStage::Working { clock } = self.stage else { return 0 };
@@ -195,6 +209,9 @@ impl SerialRcm {
         self.sync.reset();
         self.intake.reset();
         self.regions.reset();
+        if let Some(classes) = &mut self.classes {
+            classes.reset();
+        }
         self.stage = SerialStage::AFTER_RESET;
     }
 
@@ -204,7 +221,7 @@ impl SerialRcm {
             // The model scores the whole frame at this edge, before the array does. This is not
             // visible, because thresholds stay constant from here on, and because scores come to
             // the ports only in the clocks of the schedule.
-            self.decide_frame(input.thresholds);
+            self.decide_frame(ClassThresholdInputs::new(input.thresholds, input.zones));
         }
         let before = match self.stage {
             SerialStage::Taking { before, .. } => before,
@@ -214,12 +231,32 @@ impl SerialRcm {
         self.advance_clocks(1);
     }
 
-    fn decide_frame(&mut self, applied: &ThresholdInputs) {
-        let thresholds = self.constants.as_ref().unwrap_or(applied);
+    fn decide_frame(&mut self, applied: ClassThresholdInputs<'_>) {
+        let thresholds = self.constants.as_ref().map_or(applied, ThresholdConstants::by_class);
         let mut stream = Vec::new();
-        for (region, &border) in self.borders.iter().enumerate() {
+        for (number, &border) in (0..).zip(&self.borders) {
+            let region = index(number);
+            let class = self.classes.as_ref().map(|classes| classes.class(number));
+            let rules = (class.unwrap_or_default(), thresholds);
             self.intake.stream(region, &mut stream);
-            self.regions.decide(region, stream.iter().copied(), border, thresholds);
+            self.regions.decide(region, stream.iter().copied(), border, rules);
+        }
+    }
+
+    /// Applies the last edge to the memory of classes.
+    fn step_classes(&mut self, inputs: ClassMapInputs) {
+        let is_occupied = self.is_occupied();
+        if let Some(classes) = &mut self.classes {
+            classes.step(inputs, is_occupied);
+        }
+    }
+
+    /// Returns true if a frame occupies the last edge. Its edges are those from the edge that takes
+    /// the first pixel up to the one before the edge after which `ready_o` is 1 again.
+    fn is_occupied(&self) -> bool {
+        match self.stage {
+            SerialStage::Taking { .. } => !self.intake.is_empty(),
+            SerialStage::Working { clock } => self.schedule.clocks_until_ready(clock) > 0,
         }
     }
 
@@ -247,6 +284,7 @@ impl SerialRcm {
         self.output.clear_other_ports();
         self.output.ready = self.is_open() && !self.sync.is_filling();
         self.output.sync_error = self.sync.is_error();
+        self.output.zone_pending = self.classes.as_ref().is_some_and(ClassMemory::is_pending);
         let seen = match self.stage {
             SerialStage::Taking { before, .. } => {
                 before.and_then(|clock| self.schedule.output_at(clock))

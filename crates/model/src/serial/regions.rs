@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The state that the array keeps of every region from frame to frame, and its decisions.
 
-use foveate_design::{Camera, Displacement, ReferencePolicy, RegionAction, SerialDesign};
+use foveate_design::{
+    Camera, Displacement, ReferencePolicy, RegionAction, RegionClass, SerialDesign,
+};
 
 use super::schedule::ForwardedKind;
+use crate::RegionScorer;
 use crate::conversions::index;
 use crate::periphery::{ShownSummary, last_position_of_block, no_summaries};
 use crate::region_decision::RegionDecision;
-use crate::{RegionScorer, ThresholdInputs};
+use crate::thresholds::ClassThresholdInputs;
 
 /// The state of all regions.
 #[derive(Clone, Debug, PartialEq)]
@@ -120,24 +123,25 @@ impl SerialRegions {
         }
     }
 
-    /// Scores and decides the next frame of a region, and updates its reference and its summary.
+    /// Scores and decides the next frame of a region, in which it has this class, and updates its
+    /// reference and its summary.
     pub(super) fn decide(
         &mut self,
         region: usize,
         stream: impl Iterator<Item = u16>,
         border: u8,
-        thresholds: &ThresholdInputs,
+        (class, thresholds): (RegionClass, ClassThresholdInputs<'_>),
     ) {
         self.scorer.load(stream, border);
         let decision = RegionDecision::from_scorer(
             &self.camera,
             &self.scorer,
             self.reference(region),
-            thresholds,
+            (class, thresholds),
         );
         let displacement = self.scorer.displacement(self.reference(region)).unwrap_or_default();
         let means = self.scorer.means();
-        let (irrelevant, level) = (self.camera.irrelevant(), thresholds.summary_level);
+        let (irrelevant, level) = (self.camera.irrelevant(), thresholds.summary_level(class));
         let summary = &mut self.summaries[region];
         let action = summary.decide(irrelevant, decision.srs, decision.trs, &means, level);
         let payload = self.scorer.payload().collect();

@@ -156,7 +156,8 @@ fn visible_phases(design: SerialDesign<'_>, phases: &[(SerialPhase, u64)]) -> Ve
     let (mut visible, mut start, mut number) = (Vec::new(), 0, 0);
     for &(phase, steps) in phases {
         let what = match phase {
-            SerialPhase::DenoiseAndCompare
+            SerialPhase::PassClasses
+            | SerialPhase::DenoiseAndCompare
             | SerialPhase::RepeatBorder
             | SerialPhase::CompareRaw
             | SerialPhase::FeaturePass(_)

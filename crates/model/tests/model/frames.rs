@@ -67,6 +67,7 @@ pub(crate) fn make_clip(recipe: &DesignParameters, script: &ClipScript) -> Vec<F
 }
 
 /// A small random generator (splitmix64), whose values depend on the seed alone.
+#[derive(Clone, Debug)]
 pub(crate) struct SeededRandom(pub(crate) u64);
 
 impl SeededRandom {

@@ -11,6 +11,7 @@
 )]
 
 mod changing_thresholds;
+mod class_maps;
 mod floating_point;
 mod frames;
 mod functional_properties;
@@ -25,4 +26,5 @@ mod serial;
 mod sync;
 mod temporal_behavior;
 mod waveforms;
+mod zone_timing;
 mod zones;

@@ -74,7 +74,11 @@ pub(crate) fn oracle_history_with_maps(
 }
 
 /// Adds the results of the next frame, with the thresholds of each region.
-fn add_to_history(history: &mut Vec<OracleOutcome>, regions: &[DesignParameters], frame: &Frame) {
+pub(crate) fn add_to_history(
+    history: &mut Vec<OracleOutcome>,
+    regions: &[DesignParameters],
+    frame: &Frame,
+) {
     let mut outcome = outcome_without_regions(&regions[0], frame);
     for (region, recipe) in (0..).zip(regions) {
         let own = oracle_region(recipe, (&history[..], &history[..]), &outcome, region);

@@ -290,25 +290,30 @@ pub(crate) fn arbitrary_zoned_parameters() -> impl Strategy<Value = DesignParame
 fn with_zones(
     recipes: impl Strategy<Value = DesignParameters>,
 ) -> impl Strategy<Value = DesignParameters> {
-    recipes.prop_flat_map(|recipe| {
-        let (side, bits, max) = (recipe.side, recipe.bits, recipe.pixel_max());
-        let keen = |own: &FeatureParameters| {
-            arbitrary_feature(own.name, side, bits, own.fraction_bits)
-                .prop_map(|keen| (keen.level, keen.min_milli))
+    recipes.prop_flat_map(arbitrary_zones_of)
+}
+
+/// Generates the zones of a design.
+pub(crate) fn arbitrary_zones_of(
+    recipe: DesignParameters,
+) -> impl Strategy<Value = DesignParameters> {
+    let (side, bits, max) = (recipe.side, recipe.bits, recipe.pixel_max());
+    let keen = |own: &FeatureParameters| {
+        arbitrary_feature(own.name, side, bits, own.fraction_bits)
+            .prop_map(|keen| (keen.level, keen.min_milli))
+    };
+    let features: Vec<_> = recipe.features.iter().map(keen).collect();
+    let temporal = (small_numbers(max - 1), small_numbers(side * side));
+    let levels = (small_numbers(max - 1), small_numbers(max));
+    (features, temporal, levels).prop_map(move |(features, temporal, levels)| {
+        let zones = ZoneParameters {
+            features,
+            temporal_level: temporal.0,
+            temporal_min: temporal.1,
+            summary_level: levels.0,
+            off_level: levels.1,
         };
-        let features: Vec<_> = recipe.features.iter().map(keen).collect();
-        let temporal = (small_numbers(max - 1), small_numbers(side * side));
-        let levels = (small_numbers(max - 1), small_numbers(max));
-        (features, temporal, levels).prop_map(move |(features, temporal, levels)| {
-            let zones = ZoneParameters {
-                features,
-                temporal_level: temporal.0,
-                temporal_min: temporal.1,
-                summary_level: levels.0,
-                off_level: levels.1,
-            };
-            DesignParameters { zones: Some(zones), ..recipe.clone() }
-        })
+        DesignParameters { zones: Some(zones), ..recipe.clone() }
     })
 }
 

@@ -5,8 +5,8 @@
 use foveate_design::{PipelinedTiming, RegionAction, RegionClass};
 use foveate_frame::Frame;
 use foveate_model::{
-    CoreInput, FunctionalCamera, PipelinedRcm, RpuOutput, ThresholdInputs, ZoneInputs,
-    region_pixels, region_stream,
+    ClassMapInputs, CoreInput, FunctionalCamera, PipelinedRcm, RpuOutput, ThresholdInputs,
+    ZoneInputs, region_pixels, region_stream,
 };
 use proptest::prelude::*;
 
@@ -101,6 +101,7 @@ fn run(
         });
         let zones = classes.map(|classes| ZoneInputs {
             classes: &classes[clock],
+            map: ClassMapInputs::default(),
             keen: &keen,
             off_summary_level,
         });

@@ -74,7 +74,8 @@ impl FrameOutput<'_> {
             for &(phase, steps) in timing.phases() {
                 let clock = self.start + timing.edges_to_step(step);
                 match phase {
-                    SerialPhase::DenoiseAndCompare
+                    SerialPhase::PassClasses
+                    | SerialPhase::DenoiseAndCompare
                     | SerialPhase::RepeatBorder
                     | SerialPhase::CompareRaw
                     | SerialPhase::ComputeMeans

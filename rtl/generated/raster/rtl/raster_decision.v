@@ -14,6 +14,7 @@ module raster_decision #(
     parameter LAST_SENT = 0,     // 1: the reference is what was last sent; 0: the previous frame
     parameter BLANKS = 0,        // 1: a region without SRS loses its reference (LAST_SENT)
     parameter SUMMARIES = 0,     // 1: a region without SRS may send its summary
+    parameter ZONES = 0,         // 1: regions have classes
     parameter DEEP = 0,          // 1: one more register, for a faster clock
     parameter PIXELS = 64,       // pixels of a region
     parameter COUNT_BITS = 7,    // bits of a count, 0..PIXELS
@@ -31,6 +32,8 @@ module raster_decision #(
     input  wire                   judged_i,          // all scores of a region are there
     input  wire [ SCORE_BITS-1:0] scores_i,          // scores of that region; the temporal count assumes a valid reference
     input  wire [ SCORE_BITS-1:0] minima_i,          // smallest value at which each score votes; the lowest bits belong to TRS
+    input  wire [ SCORE_BITS-1:0] keen_minima_i,     // minima_i of keen regions (ZONES)
+    input  wire [            1:0] class_i,           // class of that region (ZONES)
     input  wire                   shown_i,           // the screen shows the summary of this region (SUMMARIES)
     input  wire                   differs_i,         // a mean of this region differs from the one that was sent last (SUMMARIES)
     input  wire                   lost_i,            // a region is lost, so that its reference is no longer valid
@@ -79,41 +82,42 @@ module raster_decision #(
         !LAST_SENT || reference_valid ? scores_i[COUNT_BITS-1:0] : PIXELS[COUNT_BITS-1:0];
     wire [SCORE_BITS-1:0] scores = {scores_i[SCORE_BITS-1:COUNT_BITS], changes};
     wire [FEATURES:0] votes;
+    wire [SCORE_BITS-1:0] minima;
     genvar i;
     generate
         for (i = 0; i <= HITS; i = i + 1) begin : g_count
             vote #(.WIDTH(COUNT_BITS)) u_vote (
-                .score_i(scores[i*COUNT_BITS+:COUNT_BITS]), .minimum_i(minima_i[i*COUNT_BITS+:COUNT_BITS]),
+                .score_i(scores[i*COUNT_BITS+:COUNT_BITS]), .minimum_i(minima[i*COUNT_BITS+:COUNT_BITS]),
                 .vote_o(votes[i])
             );
         end
         if (VARIANCE) begin : g_variance
             vote #(.WIDTH(VARIANCE_BITS)) u_vote (
-                .score_i(scores[VARIANCE_START+:VARIANCE_BITS]), .minimum_i(minima_i[VARIANCE_START+:VARIANCE_BITS]),
+                .score_i(scores[VARIANCE_START+:VARIANCE_BITS]), .minimum_i(minima[VARIANCE_START+:VARIANCE_BITS]),
                 .vote_o(votes[HITS+1])
             );
         end
         if (RANGE) begin : g_range
             vote #(.WIDTH(RANGE_BITS)) u_vote (
-                .score_i(scores[RANGE_START+:RANGE_BITS]), .minimum_i(minima_i[RANGE_START+:RANGE_BITS]),
+                .score_i(scores[RANGE_START+:RANGE_BITS]), .minimum_i(minima[RANGE_START+:RANGE_BITS]),
                 .vote_o(votes[HITS+VARIANCE+1])
             );
         end
         if (SURFACE) begin : g_surface
             vote #(.WIDTH(SURFACE_BITS)) u_vote (
-                .score_i(scores[SURFACE_START+:SURFACE_BITS]), .minimum_i(minima_i[SURFACE_START+:SURFACE_BITS]),
+                .score_i(scores[SURFACE_START+:SURFACE_BITS]), .minimum_i(minima[SURFACE_START+:SURFACE_BITS]),
                 .vote_o(votes[HITS+VARIANCE+RANGE+1])
             );
         end
         if (MAD) begin : g_mad
             vote #(.WIDTH(MAD_BITS)) u_vote (
-                .score_i(scores[MAD_START+:MAD_BITS]), .minimum_i(minima_i[MAD_START+:MAD_BITS]),
+                .score_i(scores[MAD_START+:MAD_BITS]), .minimum_i(minima[MAD_START+:MAD_BITS]),
                 .vote_o(votes[HITS+VARIANCE+RANGE+SURFACE+1])
             );
         end
         if (SEGMENT) begin : g_segment
             vote #(.WIDTH(SEGMENT_BITS)) u_vote (
-                .score_i(scores[SEGMENT_START+:SEGMENT_BITS]), .minimum_i(minima_i[SEGMENT_START+:SEGMENT_BITS]),
+                .score_i(scores[SEGMENT_START+:SEGMENT_BITS]), .minimum_i(minima[SEGMENT_START+:SEGMENT_BITS]),
                 .vote_o(votes[FEATURES])
             );
         end
@@ -129,7 +133,8 @@ module raster_decision #(
         .clk_i(clk_i), .data_i({votes, reference_valid, last_region_q, region_q, scores}),
         .data_o({decided_votes, decided_valid, decided_last, decided_region, decided_scores})
     );
-    wire srs = ALL ? &decided_votes[FEATURES:1] : |decided_votes[FEATURES:1];
+    wire relevant = ALL ? &decided_votes[FEATURES:1] : |decided_votes[FEATURES:1];
+    wire srs;
     wire trs = decided_votes[0];
     assign decided_region_o = decided_region;
     assign will_be_active_o = decided_o && srs && trs;
@@ -159,6 +164,19 @@ module raster_decision #(
     end
 
     generate
+        if (ZONES) begin : g_zones
+            localparam [1:0] OFF = 2'd1;
+            localparam [1:0] KEEN = 2'd2;
+            localparam [1:0] ALWAYS = 2'd3;
+            wire [1:0] decided_class;
+            word_delay #(.WIDTH(2), .DEPTH(DEEP)) u_class (.clk_i(clk_i), .data_i(class_i), .data_o(decided_class));
+            assign minima = class_i == KEEN ? keen_minima_i : minima_i;
+            assign srs = decided_class == ALWAYS || (relevant && decided_class != OFF);
+        end else begin : g_no_zones
+            wire unused_zones = |keen_minima_i || |class_i;
+            assign minima = minima_i;
+            assign srs = relevant;
+        end
         if (LAST_SENT) begin : g_valid
             wire blanked = BLANKS && !srs;
             raster_valid #(.REGIONS(REGIONS), .REGION_BITS(REGION_BITS), .DEEP(DEEP)) u_valid (

@@ -23,12 +23,14 @@ module raster_pass #(
     parameter SEGMENT_BITS = 1,   // bits of the score of `segment`
     parameter COUNT_BITS = 7,     // bits of a count, 0..SIDE * SIDE
     parameter EXTRA_BITS = 14,    // bits of extra_i
+    parameter ZONES = 0,          // 1: the two highest bits of extra_i are the class of the region
     parameter QUEUE_BITS = 9,     // log2 of the regions that can wait
     parameter DEEP = 0            // 1: the scores come one clock later
 ) (
     input  wire                    clk_i,            // clock, rising edge
     input  wire                    rst_i,            // synchronous reset, active high
     input  wire [       WIDTH-1:0] segment_level_i,  // a pixel counts if it differs from the mean by more than this level (SEGMENT)
+    input  wire [       WIDTH-1:0] keen_segment_level_i,  // segment_level_i of keen regions (SEGMENT, ZONES)
     input  wire                    enter_i,          // a region enters the queue
     input  wire [   MEAN_BITS-1:0] mean_i,           // mean of that region
     input  wire [  PLACE_BITS-1:0] start_i,          // place in the buffer of the region's first word
@@ -139,15 +141,17 @@ module raster_pass #(
         end
 
         if (SEGMENT) begin : g_segment
+            localparam [1:0] KEEN = 2'd2;
+            wire keen = ZONES && extra_q[EXTRA_BITS-1:EXTRA_BITS-2] == KEEN;
             raster_segment #(
                 .WIDTH(WIDTH), .LANES(LANES), .FRACTION(FRACTION), .MEAN_BITS(MEAN_BITS), .COUNT_BITS(COUNT_BITS),
                 .SCORE_BITS(SEGMENT_BITS), .MEAN_CLOCKS(READ_CLOCKS)
             ) u_segment (
-                .clk_i(clk_i), .mean_i(mean_q), .level_i(segment_level_i), .word_i(word_i), .step_i(valid_q),
+                .clk_i(clk_i), .mean_i(mean_q), .level_i(keen ? keen_segment_level_i : segment_level_i), .word_i(word_i), .step_i(valid_q),
                 .first_i(first_q), .score_o(segment_o)
             );
         end else begin : g_no_segment
-            wire unused_level = |segment_level_i;
+            wire unused_level = |segment_level_i || |keen_segment_level_i;
             assign segment_o = {SEGMENT_BITS{1'b0}};
         end
     endgenerate

@@ -46,6 +46,7 @@ module rcm #(
     output wire [$clog2(COLUMNS*ROWS)-1:0] lost_region_o,       // the region that was lost; only with lost_valid_o
     output wire [7:0]                      lost_frame_o         // number of the region's frame since reset, modulo 256; only with lost_valid_o
 );
+    wire unused_zone_pending;
     wire unused_summary;
     wire unused_reference_ready;
     wire unused_store_valid;
@@ -96,11 +97,23 @@ module rcm #(
     ) u_core (
         .clk_i(clk_i), .rst_i(rst_i), .valid_i(beat), .pixel_i(pixel_i), .ready_o(open),
         .temporal_level_i(temporal_level_i),
+        .keen_temporal_level_i(temporal_level_i),
         .summary_level_i(8'd0),
+        .keen_summary_level_i(8'd0),
+        .off_summary_level_i(8'd0),
         .edge_level_i(edge_level_i),
+        .keen_edge_level_i(edge_level_i),
         .corner_level_i(8'd0),
+        .keen_corner_level_i(8'd0),
         .segment_level_i(8'd0),
+        .keen_segment_level_i(8'd0),
         .minima_i({edge_min_i, temporal_min_i}),
+        .keen_minima_i({edge_min_i, temporal_min_i}),
+        .zone_write_i(1'b0),
+        .zone_address_i(1'b0),
+        .zone_word_i(32'd0),
+        .zone_commit_i(1'b0),
+        .zone_pending_o(unused_zone_pending),
         .decision_valid_o(decision_valid_o), .region_o(region_o), .srs_o(srs_o), .trs_o(trs_o), .active_o(active_o),
         .scores_o({edge_score_o, temporal_count_o}),
         .reference_valid_i(1'd0),

@@ -54,6 +54,7 @@ module rcm #(
     wire [(SLOTS > 1 ? $clog2(SLOTS) : 1)-1:0] region;
     wire [5:0] position;
     wire [1:0] slot;
+    wire unused_zone_pending;
     wire summary;
     wire [1:0] displacement_x;
     wire [1:0] displacement_y;
@@ -102,11 +103,23 @@ module rcm #(
     ) u_array (
         .clk_i(clk_i), .rst_i(rst_i), .valid_i(valid_i), .ready_o(ready_o), .pixel_i(pixel_i),
         .temporal_level_i(temporal_level_i),
+        .keen_temporal_level_i(temporal_level_i),
         .edge_half_i(edge_level_i[10:1]),
+        .keen_edge_half_i(edge_level_i[10:1]),
         .corner_level_i(8'd0),
+        .keen_corner_level_i(8'd0),
         .segment_level_i(8'd0),
+        .keen_segment_level_i(8'd0),
         .minima_i({edge_min_i, temporal_min_i}),
+        .keen_minima_i({edge_min_i, temporal_min_i}),
         .summary_level_i(8'd0),
+        .keen_summary_level_i(8'd0),
+        .off_summary_level_i(8'd0),
+        .zone_write_i(1'b0),
+        .zone_address_i(1'b0),
+        .zone_word_i(32'd0),
+        .zone_commit_i(1'b0),
+        .zone_pending_o(unused_zone_pending),
         .score_valid_o(score_valid_o), .score_index_o(score_index_o), .region_o(region), .score_o(score_o),
         .decision_valid_o(decision_valid_o), .srs_o(srs_o), .trs_o(trs_o), .active_o(active_o),
         .displacement_x_o(displacement_x),

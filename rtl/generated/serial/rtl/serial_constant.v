@@ -38,7 +38,12 @@ module serial_constant #(
     input  wire [   WIDTH+1:0] edge_half_i,       // half the level of `edge`, rounded down
     input  wire [   WIDTH-1:0] corner_level_i,    // level of `corner`
     input  wire [   WIDTH-1:0] segment_level_i,   // level of `segment`
+    input  wire [   WIDTH-1:0] keen_temporal_level_i,  // temporal_level_i of keen regions
+    input  wire [   WIDTH+1:0] keen_edge_half_i,       // edge_half_i of keen regions
+    input  wire [   WIDTH-1:0] keen_corner_level_i,    // corner_level_i of keen regions
+    input  wire [   WIDTH-1:0] keen_segment_level_i,   // segment_level_i of keen regions
     output wire [ACC_BITS-1:0] constant_o,        // the constant
+    output wire [ACC_BITS-1:0] keen_constant_o,   // the constant of keen regions
     output wire                spent_o,           // the shifted number has no bits left
     output wire                divided_o,         // the division has found all bits of the quotient
     output wire                last_place_o,      // the shifted number is at its last place
@@ -205,6 +210,25 @@ module serial_constant #(
     end
 
     assign constant_o = constant;
+
+    // The constant of keen regions differs only if it is a level.
+    reg [ACC_BITS-1:0] keen_constant;
+    wire [ACC_BITS+WIDTH-1:0] wide_keen_temporal = {{ACC_BITS{1'b0}}, keen_temporal_level_i};
+    wire [ACC_BITS+WIDTH-1:0] wide_keen_corner = {{ACC_BITS{1'b0}}, keen_corner_level_i};
+    wire [ACC_BITS+WIDTH-1:0] wide_keen_segment = {{ACC_BITS{1'b0}}, keen_segment_level_i};
+    wire [ACC_BITS+WIDTH+1:0] wide_keen_half = {{ACC_BITS{1'b0}}, keen_edge_half_i};
+    wire [ACC_BITS+WIDTH+3:0] keen_blend_level = {{ACC_BITS{1'b0}}, keen_temporal_level_i, 4'd8};
+    wire unused_keen = |keen_blend_level || |wide_keen_temporal || |wide_keen_corner || |wide_keen_segment || |wide_keen_half;
+
+    always @* begin
+        keen_constant = constant;
+        if (testing) keen_constant = BLENDS ? keen_blend_level[ACC_BITS-1:0] : wide_keen_temporal[ACC_BITS-1:0];
+        else if (gradient) keen_constant = wide_keen_half[ACC_BITS-1:0];
+        else if (ring) keen_constant = wide_keen_corner[ACC_BITS-1:0];
+        else if (leveling) keen_constant = wide_keen_segment[ACC_BITS-1:0];
+    end
+
+    assign keen_constant_o = keen_constant;
 
 endmodule
 

@@ -18,7 +18,8 @@ module serial_decision #(
     parameter REGION_BITS = 10,  // bits of the number of a slot of the array
     parameter INDEX_BITS = 1,    // bits of the number of a score
     parameter FLOW_INDEX = 0,    // number of the score of `flow`; 0: there is none
-    parameter DISPLACEMENT_BITS = 1  // bits of a displacement (FLOW_INDEX)
+    parameter DISPLACEMENT_BITS = 1, // bits of a displacement (FLOW_INDEX)
+    parameter ZONES = 0          // 1: regions have classes
 ) (
     input  wire                               clk_i,             // clock, rising edge
     input  wire                               rst_i,             // synchronous reset, active high
@@ -30,6 +31,8 @@ module serial_decision #(
     input  wire [                  FLAGS-1:0] flags_i,           // the flags of its region
     input  wire [      DISPLACEMENT_BITS-1:0] displacement_i,    // the displacement of its region (FLOW_INDEX)
     input  wire [(FEATURES+1)*SCORE_BITS-1:0] minima_i,          // smallest value of each score that votes, by index
+    input  wire [(FEATURES+1)*SCORE_BITS-1:0] keen_minima_i,     // minima_i of keen regions (ZONES)
+    input  wire [                        1:0] class_i,           // class of region_i (ZONES)
     input  wire                               summary_i,         // with SUMMARIES: the region sends its means
     output wire [                  FLAGS-1:0] flags_o,           // flags that return to the ring
     output wire                               region_valid_o,    // the slot is not empty
@@ -74,6 +77,7 @@ module serial_decision #(
     wire last = index_i == FEATURES[INDEX_BITS-1:0];
     wire reference;
     wire srs;
+    wire relevant;  // SRS as the votes have it so far
 
     generate
         if (SLOTS > REGIONS) begin : g_empty
@@ -104,7 +108,8 @@ module serial_decision #(
     endgenerate
 
     // Scores and votes.
-    wire [SCORE_BITS-1:0] minimum = minima_i[index_i*SCORE_BITS+:SCORE_BITS];
+    wire [(FEATURES+1)*SCORE_BITS-1:0] minima;
+    wire [SCORE_BITS-1:0] minimum = minima[index_i*SCORE_BITS+:SCORE_BITS];
     wire vote = score_o >= minimum;
 
     assign score_valid_o = rotate_i && region_valid_o;
@@ -120,10 +125,21 @@ module serial_decision #(
     assign active_o = decision_valid_o && active;
 
     generate
+        if (ZONES) begin : g_zones
+            localparam [1:0] OFF = 2'd1;
+            localparam [1:0] KEEN = 2'd2;
+            localparam [1:0] ALWAYS = 2'd3;
+            assign minima = class_i == KEEN ? keen_minima_i : minima_i;
+            assign srs = class_i == ALWAYS || (relevant && class_i != OFF);
+        end else begin : g_no_zones
+            wire unused_zones = |keen_minima_i || |class_i;
+            assign minima = minima_i;
+            assign srs = relevant;
+        end
         if (FEATURES > 1) begin : g_votes
-            assign srs = ALL != 0 ? flags_i[1] && vote : flags_i[1] || vote;
+            assign relevant = ALL != 0 ? flags_i[1] && vote : flags_i[1] || vote;
         end else begin : g_vote
-            assign srs = vote;
+            assign relevant = vote;
         end
         if (SUMMARIES != 0) begin : g_sent
             assign flags_o[FLAGS-1] = !rotate_i ? flags_i[FLAGS-1] : temporal ? ALL != 0 : last ? summary_i : srs;

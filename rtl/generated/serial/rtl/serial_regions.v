@@ -19,12 +19,14 @@ module serial_regions #(
     parameter BLOCK_BITS = 1,       // bits of the number of a block, at least 1
     parameter SLOT_BITS = 1,        // bits of the number of a slot, at least 1
     parameter REGION_BITS = 10,     // bits of the number of a region, empty slots included
-    parameter INDEX_BITS = 1        // bits of the number of a score
+    parameter INDEX_BITS = 1,       // bits of the number of a score
+    parameter ZONES = 0             // 1: a slot begins with the classes of its regions
 ) (
     input  wire                   clk_i,         // clock, rising edge
     input  wire                   loading_i,     // a frame enters
     input  wire                   rotating_i,    // a score passes the decision
     input  wire                   shifting_i,    // a score or a pixel moves on by one lane
+    input  wire                   classing_i,    // a class passes (ZONES)
     input  wire                   averaging_i,   // the score that passes is the sum of a block
     input  wire                   block_ends_i,  // the block is done
     input  wire                   slot_ends_i,   // the slot is done
@@ -142,10 +144,22 @@ module serial_regions #(
     wire [REGION_BITS-1:0] first_region;
     assign region_o = region_q;
 
-    always @(posedge clk_i) begin
-        if (rotating_i || shifting_i) region_q <= region_q + REGION_STEP;
-        else region_q <= first_region;
-    end
+    // Classes pass at the first step of a slot already, so the number of its first region is ready one clock early.
+    generate
+        if (ZONES) begin : g_classes
+            always @(posedge clk_i) begin
+                if (slot_ends_i) region_q <= first_region + 1'b1;
+                else if (rotating_i || shifting_i || classing_i) region_q <= region_q + REGION_STEP;
+                else region_q <= first_region;
+            end
+        end else begin : g_no_classes
+            wire unused_classing = classing_i;
+            always @(posedge clk_i) begin
+                if (rotating_i || shifting_i) region_q <= region_q + REGION_STEP;
+                else region_q <= first_region;
+            end
+        end
+    endgenerate
 
     generate
         if (REGION_BITS > SLOT_BITS) begin : g_first

@@ -47,7 +47,8 @@ module serial_sequencer #(
     parameter POSITION_BITS = 6,    // bits of the number of a pixel in the larger square of centers
     parameter INDEX_BITS = 1,       // bits of the number of a score
     parameter SCALE_BITS = 8,       // bits of the constant that is shifted from step to step
-    parameter ACC_BITS = 11         // bits of the accumulator
+    parameter ACC_BITS = 11,        // bits of the accumulator
+    parameter ZONES = 0             // 1: regions have classes
 ) (
     input  wire                     clk_i,             // clock, rising edge
     input  wire                     rst_i,             // synchronous reset, active high
@@ -56,6 +57,10 @@ module serial_sequencer #(
     input  wire [        WIDTH+1:0] edge_half_i,       // half the level of `edge`, rounded down
     input  wire [        WIDTH-1:0] corner_level_i,    // level of `corner`
     input  wire [        WIDTH-1:0] segment_level_i,   // level of `segment`
+    input  wire [        WIDTH-1:0] keen_temporal_level_i,  // temporal_level_i of keen regions
+    input  wire [        WIDTH+1:0] keen_edge_half_i,  // edge_half_i of keen regions
+    input  wire [        WIDTH-1:0] keen_corner_level_i,  // corner_level_i of keen regions
+    input  wire [        WIDTH-1:0] keen_segment_level_i,  // segment_level_i of keen regions
     output wire                     working_o,         // the address is that of a step
     output wire                     reopen_o,          // the frame is done
     // Outputs to the lanes.
@@ -63,6 +68,8 @@ module serial_sequencer #(
     output wire [    WORD_BITS-1:0] address_o,         // the address inside the slot
     output wire                     write_o,           // the accumulator is written to this address
     output wire [     ACC_BITS-1:0] constant_o,        // the constant
+    output wire [     ACC_BITS-1:0] keen_constant_o,   // the constant of keen regions (ZONES)
+    output wire                     classing_o,        // classes move on by one lane (ZONES)
     output wire [             38:0] controls_o,        // the control word, see serial_controls
     // Outputs to the decision.
     output wire                     rotate_o,          // scores pass
@@ -128,10 +135,10 @@ module serial_sequencer #(
         .CORNER_INDEX(CORNER_INDEX), .MAD_INDEX(MAD_INDEX), .VARIANCE_INDEX(VARIANCE_INDEX), .RANGE_INDEX(RANGE_INDEX),
         .SURFACE_INDEX(SURFACE_INDEX), .SEGMENT_INDEX(SEGMENT_INDEX), .FLOW_INDEX(FLOW_INDEX),
         .MEANS(BLOCKS * BLOCKS), .BLOCK_BITS(BLOCK_BITS), .SLOT_BITS(SLOT_BITS), .REGION_BITS(REGION_BITS),
-        .INDEX_BITS(INDEX_BITS)
+        .INDEX_BITS(INDEX_BITS), .ZONES(ZONES)
     ) u_regions (
         .clk_i(clk_i), .loading_i(loading), .rotating_i(rotating), .shifting_i(shifting),
-        .averaging_i(averaging), .block_ends_i(block_ends), .slot_ends_i(slot_ends), .slot_o(slot_o),
+        .classing_i(classing_o), .averaging_i(averaging), .block_ends_i(block_ends), .slot_ends_i(slot_ends), .slot_o(slot_o),
         .last_slot_o(last_slot), .index_o(index_o), .first_score_o(first_score), .last_score_o(last_score),
         .block_o(block_o), .last_block_o(last_block), .next_edge_o(next_edge),
         .next_corner_o(next_corner), .next_range_o(next_range), .next_surface_o(next_surface), .next_flow_o(next_flow), .ranges_o(ranges), .squares_o(squares),
@@ -143,7 +150,7 @@ module serial_sequencer #(
         .FILTER(FILTER), .BORDERS(BORDERS), .COPIES(COPIES), .RASTER(RASTER), .LATE(LATE), .DEEP(DEEP),
         .EDGE(EDGE), .CORNER(CORNER), .MAD(MAD), .VARIANCE(VARIANCE), .RANGE(RANGE), .SURFACE(SURFACE), .SEGMENT(SEGMENT), .FLOW(FLOW),
         .FRACTION(FRACTION),
-        .SUMMARIES(BLOCKS != 0 ? 1 : 0)
+        .SUMMARIES(BLOCKS != 0 ? 1 : 0), .ZONES(ZONES)
     ) u_states (
         .clk_i(clk_i), .rst_i(rst_i), .start_i(start_i), .last_column_i(last_column),
         .last_center_i(last_center), .last_lane_i(last_lane), .first_score_i(first_score), .last_score_i(last_score),
@@ -152,7 +159,7 @@ module serial_sequencer #(
         .squares_i(squares), .surfaces_i(surfaces), .segments_i(segments), .flows_i(flows), .last_displacement_i(last_displacement), .spent_i(spent),
         .divided_i(divided), .last_place_i(last_place), .corrects_i(corrects), .any_pairs_i(any_pairs),
         .more_pairs_i(more_pairs), .step_o(step), .tap_o(tap), .part_o(part), .walks_o(walks),
-        .block_ends_o(block_ends), .slot_ends_o(slot_ends), .stage_o(stage), .compared_o(compared)
+        .block_ends_o(block_ends), .slot_ends_o(slot_ends), .classing_o(classing_o), .stage_o(stage), .compared_o(compared)
     );
 
     generate
@@ -199,7 +206,9 @@ module serial_sequencer #(
         .surfaces_i(surfaces), .segments_i(segments), .flows_i(flows), .stage_i(stage), .weight_i(weight), .preceding_i(preceding),
         .temporal_level_i(temporal_level_i), .edge_half_i(edge_half_i),
         .corner_level_i(corner_level_i), .segment_level_i(segment_level_i),
-        .constant_o(constant_o), .spent_o(spent), .divided_o(divided), .last_place_o(last_place),
+        .keen_temporal_level_i(keen_temporal_level_i), .keen_edge_half_i(keen_edge_half_i),
+        .keen_corner_level_i(keen_corner_level_i), .keen_segment_level_i(keen_segment_level_i),
+        .constant_o(constant_o), .keen_constant_o(keen_constant_o), .spent_o(spent), .divided_o(divided), .last_place_o(last_place),
         .corrects_o(corrects), .any_pairs_o(any_pairs), .more_pairs_o(more_pairs)
     );
 

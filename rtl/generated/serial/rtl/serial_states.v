@@ -22,7 +22,8 @@ module serial_states #(
     parameter SEGMENT = 0,    // 1: the design has the feature `segment`
     parameter FLOW = 0,       // 1: the design has the feature `flow`
     parameter FRACTION = 0,   // fraction bits of the mean of `mad`
-    parameter SUMMARIES = 0   // 1: irrelevant regions send the means of their blocks
+    parameter SUMMARIES = 0,  // 1: irrelevant regions send the means of their blocks
+    parameter ZONES = 0       // 1: regions have classes
 ) (
     input  wire        clk_i,          // clock, rising edge
     input  wire        rst_i,          // synchronous reset, active high
@@ -60,46 +61,49 @@ module serial_states #(
     output wire        walks_o,        // the next step works on the next center
     output wire        block_ends_o,   // the next step works on the next block, for its sum or its mean
     output wire        slot_ends_o,    // the next step works on the next slot
+    output wire        classing_o,     // the classes of regions pass; the step has no other action
     output wire [ 2:0] stage_o,        // stage of the pass of `flow`
     output wire        compared_o      // `flow`: the displacement has been compared
 );
 
-    localparam [4:0] LOAD = 5'd0;      // a frame enters
-    localparam [4:0] DRAIN = 5'd1;     // one clock for the last step
-    localparam [4:0] START = 5'd2;     // median: the first candidate
-    localparam [4:0] SEARCH = 5'd3;    // median: nine comparisons and one adjustment per bit
-    localparam [4:0] READ = 5'd4;      // reads a word that is compared, or written to another place
-    localparam [4:0] IDLE = 5'd5;      // the accumulator is one step behind
-    localparam [4:0] WRITE = 5'd6;
-    localparam [4:0] REFERENCE = 5'd7;
-    localparam [4:0] TEST = 5'd8;      // tests whether a pixel has changed
-    localparam [4:0] ROTATE = 5'd9;
-    localparam [4:0] GRADIENT = 5'd10;
-    localparam [4:0] RING = 5'd11;
-    localparam [4:0] SUM = 5'd12;
-    localparam [4:0] DOUBLE = 5'd13;
-    localparam [4:0] HALF = 5'd14;     // adds half of the divisor
-    localparam [4:0] DIVIDE = 5'd15;   // finds a bit of a quotient; a division by 1 moves the accumulator to `aux`; `flow` may subtract its smallest product
-    localparam [4:0] CLEAR = 5'd16;    // ends a sum or a comparison: `surface` and `flow` keep the smaller value, `segment` keeps the mean
-    localparam [4:0] DEVIATE = 5'd17;
-    localparam [4:0] SQUARE = 5'd18;   // adds words whose bit is set
-    localparam [4:0] CORRECT = 5'd19;  // subtracts the square of the sum
-    localparam [4:0] KEEP = 5'd20;
-    localparam [4:0] UNLOAD = 5'd21;
-    localparam [4:0] SHIFT = 5'd22;
-    localparam [4:0] WAIT = 5'd23;     // the accumulator is two steps behind
-    localparam [4:0] LONGER = 5'd24;   // the accumulator is three steps behind
-    localparam [4:0] SETTLE = 5'd25;   // one clock until the score is whole
-    localparam [4:0] STORE = 5'd26;    // writes a mean that has come back
-    localparam [4:0] SHOW = 5'd27;     // a mean leaves
-    localparam [4:0] RANGE_STEP = 5'd28;  // keeps the larger of the accumulator and a word, or its distance from the largest
-    localparam [4:0] RECALL = 5'd29;   // adds the mean or a sum, or subtracts it, bit by bit; `flow` multiplies its sum by a weight
-    localparam [4:0] WALK = 5'd30;     // `segment`: counts a word; `surface` and `flow`: adds the distance of a word from another
-    localparam [4:0] FILTER_STEP = 5'd31;  // a step of `switching3x3` or `binomial3x3`
-    localparam [4:0] FIRST = FILTER == 1 ? START : FILTER == 3 ? FILTER_STEP : READ;
-    localparam [4:0] BEHIND = LATE == 0 ? WRITE : LATE == 1 ? IDLE : LATE == 2 ? WAIT : LONGER;
-    localparam [4:0] RETURNED = LATE == 0 ? STORE : BEHIND;
-    localparam [4:0] SCORED = DEEP != 0 ? SETTLE : ROTATE;
+    localparam [5:0] LOAD = 6'd0;      // a frame enters
+    localparam [5:0] DRAIN = 6'd1;     // one clock for the last step
+    localparam [5:0] START = 6'd2;     // median: the first candidate
+    localparam [5:0] SEARCH = 6'd3;    // median: nine comparisons and one adjustment per bit
+    localparam [5:0] READ = 6'd4;      // reads a word that is compared, or written to another place
+    localparam [5:0] IDLE = 6'd5;      // the accumulator is one step behind
+    localparam [5:0] WRITE = 6'd6;
+    localparam [5:0] REFERENCE = 6'd7;
+    localparam [5:0] TEST = 6'd8;      // tests whether a pixel has changed
+    localparam [5:0] ROTATE = 6'd9;
+    localparam [5:0] GRADIENT = 6'd10;
+    localparam [5:0] RING = 6'd11;
+    localparam [5:0] SUM = 6'd12;
+    localparam [5:0] DOUBLE = 6'd13;
+    localparam [5:0] HALF = 6'd14;     // adds half of the divisor
+    localparam [5:0] DIVIDE = 6'd15;   // finds a bit of a quotient; a division by 1 moves the accumulator to `aux`; `flow` may subtract its smallest product
+    localparam [5:0] CLEAR = 6'd16;    // ends a sum or a comparison: `surface` and `flow` keep the smaller value, `segment` keeps the mean
+    localparam [5:0] DEVIATE = 6'd17;
+    localparam [5:0] SQUARE = 6'd18;   // adds words whose bit is set
+    localparam [5:0] CORRECT = 6'd19;  // subtracts the square of the sum
+    localparam [5:0] KEEP = 6'd20;
+    localparam [5:0] UNLOAD = 6'd21;
+    localparam [5:0] SHIFT = 6'd22;
+    localparam [5:0] WAIT = 6'd23;     // the accumulator is two steps behind
+    localparam [5:0] LONGER = 6'd24;   // the accumulator is three steps behind
+    localparam [5:0] SETTLE = 6'd25;   // one clock until the score is whole
+    localparam [5:0] STORE = 6'd26;    // writes a mean that has come back
+    localparam [5:0] SHOW = 6'd27;     // a mean leaves
+    localparam [5:0] RANGE_STEP = 6'd28;  // keeps the larger of the accumulator and a word, or its distance from the largest
+    localparam [5:0] RECALL = 6'd29;   // adds the mean or a sum, or subtracts it, bit by bit; `flow` multiplies its sum by a weight
+    localparam [5:0] WALK = 6'd30;     // `segment`: counts a word; `surface` and `flow`: adds the distance of a word from another
+    localparam [5:0] FILTER_STEP = 6'd31;  // a step of `switching3x3` or `binomial3x3`
+    localparam [5:0] PASS = 6'd32;     // the classes of the regions of the slot pass
+    localparam [5:0] FIRST = FILTER == 1 ? START : FILTER == 3 ? FILTER_STEP : READ;
+    localparam [5:0] BEGIN = ZONES ? PASS : FIRST;  // the first step of a slot
+    localparam [5:0] BEHIND = LATE == 0 ? WRITE : LATE == 1 ? IDLE : LATE == 2 ? WAIT : LONGER;
+    localparam [5:0] RETURNED = LATE == 0 ? STORE : BEHIND;
+    localparam [5:0] SCORED = DEEP != 0 ? SETTLE : ROTATE;
 
     localparam [1:0] TEMPORAL = 2'b00;
     localparam [1:0] BORDER = 2'b01;
@@ -113,8 +117,8 @@ module serial_states #(
     localparam [3:0] LAST_DOUBLE = FRACTION - 1;
     /* verilator lint_on WIDTH */
 
-    reg [4:0] state_q;
-    reg [4:0] state;
+    reg [5:0] state_q;
+    reg [5:0] state;
     reg [1:0] job_q;  // the purpose of the walk over pixels
     reg [1:0] job;
     reg [3:0] tap_q;
@@ -211,6 +215,7 @@ module serial_states #(
         matching, lessening, noting,
         is_averaging, is_returning, storing, showing
     };
+    assign classing_o = ZONES && state_q == PASS;
     assign tap_o = spanning ? {2'b00, round} + 4'd3 : tap_q;  // the neighbors at the right, and those below from right to left
     assign part_o = part_q;
     assign stage_o = stage;
@@ -234,10 +239,12 @@ module serial_states #(
         returning = is_returning;
         case (state_q)
             LOAD: if (start_i) begin
-                state = FIRST;
+                state = BEGIN;
                 job = TEMPORAL;
             end
             DRAIN: state = LOAD;
+            PASS: if (!ZONES) state = LOAD;
+            else if (last_lane_i) state = FIRST;
             START: state = SEARCH;
             SEARCH: if (adjusting && spent_i) state = SWITCHES ? FILTER_STEP : BEHIND;
             FILTER_STEP: begin
@@ -328,7 +335,7 @@ module serial_states #(
         if (BLENDS && denoised && !BORDERS) state = SCORED;
         if (SUMMARIES && unloaded) returning = 1'b1;
         if (slot_ends_o) begin
-            state = last_slot_i ? DRAIN : FIRST;
+            state = last_slot_i ? DRAIN : BEGIN;
             job = TEMPORAL;
             returning = 1'b0;
         end

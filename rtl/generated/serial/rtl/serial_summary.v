@@ -16,7 +16,8 @@ module serial_summary #(
     parameter [FACTOR_BITS-1:0] FACTOR = 1,  // (sum * FACTOR) >> SHIFT is the sum divided by the pixels of a block
     parameter SHIFT = 4,                     // bits of the product that are dropped
     parameter SLOTS = 784,                   // number of regions plus empty slots
-    parameter REGION_BITS = 10               // bits of the number of a slot of the array
+    parameter REGION_BITS = 10,              // bits of the number of a slot of the array
+    parameter ZONES = 0                      // 1: regions have classes
 ) (
     input  wire                   clk_i,           // clock, rising edge
     input  wire                   rst_i,           // synchronous reset, active high
@@ -31,6 +32,9 @@ module serial_summary #(
     input  wire                   srs_i,           // SRS of that decision
     input  wire                   active_i,        // SRS and TRS of that decision are both 1
     input  wire [      WIDTH-1:0] level_i,         // a mean that differs by more than this level is sent again
+    input  wire [      WIDTH-1:0] keen_level_i,    // level_i of keen regions (ZONES)
+    input  wire [      WIDTH-1:0] off_level_i,     // level_i of regions that are off (ZONES)
+    input  wire [            1:0] class_i,         // class of region_i (ZONES)
     output wire                   summary_o,       // the summary of region_i is sent; 0 unless decided_i
     output wire [      WIDTH-1:0] mean_o           // the mean of block_i that region_i shows
 );
@@ -133,8 +137,27 @@ module serial_summary #(
         end
     endgenerate
 
+    // The level of the class of the region whose mean is compared, which passed two clocks ago.
+    wire [WIDTH-1:0] level;
+    generate
+        if (ZONES) begin : g_zones
+            localparam [1:0] OFF = 2'd1;
+            localparam [1:0] KEEN = 2'd2;
+            reg [1:0] passed_class_q, compared_class_q;
+            assign level = compared_class_q == KEEN ? keen_level_i : compared_class_q == OFF ? off_level_i : level_i;
+
+            always @(posedge clk_i) begin
+                passed_class_q   <= class_i;
+                compared_class_q <= passed_class_q;
+            end
+        end else begin : g_no_zones
+            wire unused_zones = |keen_level_i || |off_level_i || |class_i;
+            assign level = level_i;
+        end
+    endgenerate
+
     magnitude_above #(.WIDTH(WIDTH + 1)) u_above (
-        .value_i(difference_q), .level_i(level_i), .above_o(above)
+        .value_i(difference_q), .level_i(level), .above_o(above)
     );
 
     frame_store #(.WIDTH(1), .PIXELS(PLACES), .ADDRESS_BITS(REGION_BITS)) u_differs (

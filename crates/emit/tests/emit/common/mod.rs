@@ -52,6 +52,18 @@ fn most_blocks(size: u32) -> u32 {
     [4, 2].into_iter().find(|blocks| size.is_multiple_of(*blocks)).unwrap_or(1)
 }
 
+/// Returns the table `[zones]` with a keen region in a corner, or nothing.
+fn zones_table(has_zones: bool, summarizes: bool, size: u32) -> String {
+    if !has_zones {
+        return String::new();
+    }
+    let off = if summarizes { "off_level = 1\n" } else { "" };
+    format!(
+        "[zones]\n{off}areas = [{{ class = 'keen', rectangle = [0, 0, {size}, {size}] }}]\n\
+         keen = {{ temporal = {{ min_count = 2 }} }}\n"
+    )
+}
+
 /// Returns configurations of pipelined designs as TOML.
 pub(crate) fn pipelined_matrix() -> Vec<String> {
     let mut list = Vec::new();
@@ -73,11 +85,7 @@ pub(crate) fn pipelined_matrix() -> Vec<String> {
                 5 => format!("[periphery]\nblocks = {}\n", most_blocks(size)),
                 _ => String::new(),
             };
-            let zones = match ((index + choice / 2) % 2, irrelevant) {
-                (0, _) => "",
-                (_, "mean") => "[zones]\noff_level = 1\nkeen = { temporal = { min_count = 2 } }\n",
-                _ => "[zones]\nkeen = { temporal = { min_count = 2 } }\n",
-            };
+            let zones = zones_table((index + choice / 2) % 2 == 1, irrelevant == "mean", size);
             list.push(format!(
                 "spatial = {features}\n\
                  [frame]\nwidth = {width}\nheight = {size}\npixel_bits = {depth}\n\
@@ -140,6 +148,7 @@ pub(crate) fn serial_matrix() -> Vec<String> {
                 (1 | 2, "mean") => format!("[periphery]\nblocks = {}\n", most_blocks(size)),
                 _ => String::new(),
             };
+            let zones = zones_table((index + choice / 2) % 2 == 1, irrelevant == "mean", size);
             list.push(format!(
                 "spatial = {features}\n\
                  [frame]\nwidth = {width}\nheight = {height}\npixel_bits = {depth}\n\
@@ -148,7 +157,7 @@ pub(crate) fn serial_matrix() -> Vec<String> {
                  [temporal]\nlevel = 0\nmin_count = 1\nreference = '{reference}'\n\
                  [render]\npayload = '{payload}'\nirrelevant = '{irrelevant}'\n\
                  [hardware]\norganization = 'serial'\nfold = {fold}\nfeed = '{feed}'\n\
-                 pipelining = '{pipelining}'\nthresholds = '{thresholds}'\nsync = {sync}\n{periphery}",
+                 pipelining = '{pipelining}'\nthresholds = '{thresholds}'\nsync = {sync}\n{periphery}{zones}",
                 width = columns * size,
                 height = rows * size,
                 neighborhood = pick(0, "isolated", "shared"),
@@ -189,6 +198,7 @@ pub(crate) fn raster_matrix() -> Vec<String> {
             let pick = |bit: usize, off: &'static str, on: &'static str| {
                 if (choice >> bit) & 1 == 0 { off } else { on }
             };
+            let zones = zones_table((index + choice / 2) % 2 == 1, !periphery.is_empty(), size);
             list.push(format!(
                 "spatial = {features}\n\
                  [frame]\nwidth = {width}\nheight = {height}\npixel_bits = {depth}\n\
@@ -197,7 +207,7 @@ pub(crate) fn raster_matrix() -> Vec<String> {
                  [temporal]\nlevel = 0\nmin_count = 1\nreference = '{reference}'\n\
                  [render]\npayload = '{payload}'\nirrelevant = '{irrelevant}'\n\
                  [hardware]\norganization = 'raster'\npixels_per_clock = {word}\n\
-                 pipelining = '{pipelining}'\nstore = '{store}'\nthresholds = '{thresholds}'\nsync = {sync}\n{periphery}",
+                 pipelining = '{pipelining}'\nstore = '{store}'\nthresholds = '{thresholds}'\nsync = {sync}\n{periphery}{zones}",
                 width = columns * size - beside,
                 height = rows * size - below,
                 neighborhood = pick(0, "isolated", "shared"),
@@ -252,10 +262,13 @@ pub(crate) fn every_design() -> Vec<String> {
     [pipelined_matrix(), serial_matrix(), raster_matrix(), more.collect()].concat()
 }
 
-/// Returns raster designs on AXI: those of the matrix whose pixels leave, and one with an external
+/// Returns raster designs on AXI: those of the matrix whose pixels leave and that have no zones, and one with an external
 /// frame store.
 pub(crate) fn every_design_on_a_bus() -> Vec<String> {
-    let leaves = |toml: &String| design(toml).has_forwarding();
+    let leaves = |toml: &String| {
+        let design = design(toml);
+        design.has_forwarding() && design.zones().is_none()
+    };
     let on_axi = |toml: String| toml.replacen("[hardware]\n", "[hardware]\ninterface = 'axi'\n", 1);
     let outside = "frame={width=64,height=21}\nhardware={organization='raster',store='external',interface='axi'}";
     let matrix = raster_matrix().into_iter().filter(leaves).map(on_axi);

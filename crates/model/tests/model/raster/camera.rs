@@ -8,6 +8,7 @@ use foveate_model::{FunctionalCamera, FunctionalOutcome, RasterOutput};
 
 use super::driver::{RasterDriver, RasterStimulus, RasterTrace, RasterTraffic};
 use super::raster_parameters::{PlantedMisreading, RasterParameters};
+use crate::class_maps::PortThresholds;
 use crate::hard_cases::hard_frames;
 use crate::parameters::{DesignParameters, FeatureParameters, PeripheryParameters};
 use crate::screen::ReceiverScreen;
@@ -63,7 +64,7 @@ fn show_active_region(
 /// screen can be compared.
 fn check(recipe: &RasterParameters, clip: &[Frame]) {
     let design = recipe.design();
-    let thresholds = foveate_model::ThresholdInputs::from_camera(&design);
+    let thresholds = PortThresholds::of_camera(&design);
     let (mut camera, mut driver) =
         (FunctionalCamera::new(&design), RasterDriver::new(recipe, RasterTraffic::DENSE));
     let mut screen = ReceiverScreen::black(&design);

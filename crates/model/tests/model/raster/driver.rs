@@ -4,10 +4,11 @@
 
 use foveate_design::FeatureKind;
 use foveate_frame::Frame;
-use foveate_model::{CoreInput, RasterOutput, RasterRcm, ThresholdInputs};
+use foveate_model::{ClassMapInputs, CoreInput, RasterOutput, RasterRcm};
 
 use super::memory::{ExternalMemory, MemoryFaultRates};
 use super::raster_parameters::RasterParameters;
+use crate::class_maps::{ClassMapWriter, PortThresholds};
 use crate::frames::SeededRandom;
 
 /// The clocks at which the sink is ready.
@@ -48,7 +49,7 @@ impl RasterTraffic {
 /// A frame with its thresholds.
 pub(crate) struct RasterStimulus {
     pub(crate) frame: Frame,
-    pub(crate) thresholds: ThresholdInputs,
+    pub(crate) thresholds: PortThresholds,
 }
 
 /// The inputs and outputs since a reset. Element x belongs to edge x, and element 0 to the time
@@ -59,6 +60,8 @@ pub(crate) struct RasterTrace {
     pub(crate) sink: Vec<bool>,
     /// The references and their valid bits, if the core has these ports.
     pub(crate) references: Vec<(bool, Vec<u16>)>,
+    /// The inputs of the memory of classes.
+    pub(crate) maps: Vec<ClassMapInputs>,
     pub(crate) shown: Vec<RasterOutput>,
 }
 
@@ -81,13 +84,18 @@ pub(crate) struct RasterDriver {
     /// Clocks left of the current phase of the sink, and true if the sink is ready in it.
     sink_phase: (i64, bool),
     decisions: i64,
-    noise: ThresholdInputs,
+    noise: PortThresholds,
+    /// The writer of maps, if the core has zones.
+    writer: Option<ClassMapWriter>,
+    /// True between the first and the last word of a frame.
+    is_inside: bool,
 }
 
 impl RasterDriver {
     pub(crate) fn new(recipe: &RasterParameters, traffic: RasterTraffic) -> Self {
         let design = recipe.design();
         let rcm = RasterRcm::new(design.as_raster().unwrap());
+        let writer = |_| ClassMapWriter::new(&recipe.base, recipe.advances(), traffic.seed);
         let mut driver = Self {
             recipe: recipe.clone(),
             rcm,
@@ -98,7 +106,9 @@ impl RasterDriver {
             clocks_left: i64::MAX,
             sink_phase: (0, true),
             decisions: 0,
-            noise: ThresholdInputs::from_camera(&design),
+            noise: PortThresholds::of_camera(&design),
+            writer: recipe.base.zones.as_ref().map(writer),
+            is_inside: false,
         };
         driver.restart_trace();
         driver
@@ -109,6 +119,7 @@ impl RasterDriver {
         for _ in 0..clocks {
             let (word, thresholds) = (self.ignored_word(), self.ignored_thresholds());
             let (valid, forward_ready) = (self.random.below(2) > 0, self.random.below(2) > 0);
+            let map = self.map_inputs();
             let input = CoreInput {
                 reset: true,
                 valid,
@@ -117,9 +128,9 @@ impl RasterDriver {
                 reference_valid: false,
                 reference_pixels: &word,
                 forward_ready,
-                thresholds: &thresholds,
+                thresholds: &thresholds.own,
                 border: 0,
-                zones: None,
+                zones: self.writer.is_some().then(|| thresholds.zone_inputs(map)),
             };
             self.rcm.step(&input);
         }
@@ -130,9 +141,11 @@ impl RasterDriver {
     /// Starts a new record of inputs and outputs.
     pub(crate) fn restart_trace(&mut self) {
         self.decisions = 0;
+        self.is_inside = false;
         let shown = vec![self.rcm.output().clone()];
         let references = vec![(false, Vec::new())];
-        self.trace = RasterTrace { valid: vec![false], sink: vec![false], references, shown };
+        let (valid, maps) = (vec![false], vec![ClassMapInputs::default()]);
+        self.trace = RasterTrace { valid, sink: vec![false], references, maps, shown };
     }
 
     /// Feeds the frames, lets `rest` clocks pass, and returns the record. The run ends after
@@ -174,21 +187,24 @@ impl RasterDriver {
                 self.idle(&job.thresholds);
             }
             self.step(true, &word, &job.thresholds);
+            self.is_inside = true;
         }
+        self.is_inside = false;
     }
 
-    fn idle(&mut self, thresholds: &ThresholdInputs) {
+    fn idle(&mut self, thresholds: &PortThresholds) {
         let junk = self.ignored_word();
         let pushes = !self.rcm.output().ready && self.random.below(100) < self.traffic.pushing;
         self.step(pushes, &junk, thresholds);
     }
 
-    fn step(&mut self, valid: bool, pixels: &[u16], thresholds: &ThresholdInputs) {
+    fn step(&mut self, valid: bool, pixels: &[u16], thresholds: &PortThresholds) {
         if self.clocks_left == 0 {
             return;
         }
         self.clocks_left -= 1;
         let forward_ready = self.is_sink_ready();
+        let map = self.map_inputs();
         let (reference_valid, reference) = self.memory.reference_port(self.rcm.output());
         let input = CoreInput {
             reset: false,
@@ -198,9 +214,9 @@ impl RasterDriver {
             reference_valid,
             reference_pixels: &reference,
             forward_ready,
-            thresholds,
+            thresholds: &thresholds.own,
             border: 0,
-            zones: None,
+            zones: self.writer.is_some().then(|| thresholds.zone_inputs(map)),
         };
         let shown = self.rcm.step(&input).clone();
         self.memory.store(&shown);
@@ -208,7 +224,14 @@ impl RasterDriver {
         self.decisions += i64::from(shown.decision_valid);
         self.trace.valid.push(valid);
         self.trace.sink.push(forward_ready);
+        self.trace.maps.push(map);
         self.trace.shown.push(shown);
+    }
+
+    /// Returns the inputs of the memory of classes at the next edge.
+    fn map_inputs(&mut self) -> ClassMapInputs {
+        let is_near_end = !self.is_inside;
+        self.writer.as_mut().map(|writer| writer.next(is_near_end)).unwrap_or_default()
     }
 
     fn is_sink_ready(&mut self) -> bool {
@@ -231,14 +254,14 @@ impl RasterDriver {
     }
 
     /// Returns thresholds that the core must ignore.
-    fn ignored_thresholds(&mut self) -> ThresholdInputs {
-        let mut noise = self.noise;
+    fn ignored_thresholds(&mut self) -> PortThresholds {
+        let mut noise = self.noise.own;
         noise.temporal_level = self.random.below(2) as u32;
         noise.temporal_min_count = self.random.below(5) as u32;
         noise.summary_level = self.random.below(2) as u32;
         noise.level = [self.random.below(9) as u32; FeatureKind::COUNT];
         noise.min_score = [self.random.below(9) as u64; FeatureKind::COUNT];
-        noise
+        noise.into()
     }
 }
 

@@ -14,3 +14,4 @@ mod readout;
 mod stores;
 mod streams;
 mod summaries;
+mod zones;

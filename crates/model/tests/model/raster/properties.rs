@@ -12,9 +12,10 @@ use super::driver::{RasterDriver, RasterStimulus, RasterTraffic, SinkPattern};
 use super::memory::MemoryFaultRates;
 use super::raster_oracle::{RasterCheckResult, RasterOracle};
 use super::raster_parameters::{RasterParameters, arbitrary_raster_parameters};
+use crate::class_maps::{ClassMapLog, PortThresholds};
 use crate::frames::{ClipScript, SeededRandom, arbitrary_scripts, make_clip};
 
-fn arbitrary_traffic() -> impl Strategy<Value = RasterTraffic> {
+pub(crate) fn arbitrary_traffic() -> impl Strategy<Value = RasterTraffic> {
     let gaps = prop_oneof![3 => Just(0i64), 1 => 1i64..70];
     let pushing = prop_oneof![Just(0i64), Just(50), Just(100)];
     let sink = prop_oneof![
@@ -59,11 +60,14 @@ fn with_other_thresholds(recipe: &RasterParameters, seed: u64) -> RasterParamete
     if let Some(periphery) = &mut recipe.base.periphery {
         periphery.level /= 1 + random.below(3);
     }
+    if let Some(zones) = &mut recipe.base.zones {
+        zones.reduce(&mut random);
+    }
     recipe
 }
 
 /// Returns the values of the threshold inputs. They are arbitrary if the core has constants.
-fn applied_thresholds(recipe: &RasterParameters) -> ThresholdInputs {
+fn applied_thresholds(recipe: &RasterParameters) -> PortThresholds {
     if recipe.base.constant {
         let (level, min_score) = ([1; FeatureKind::COUNT], [1; FeatureKind::COUNT]);
         return ThresholdInputs {
@@ -72,9 +76,10 @@ fn applied_thresholds(recipe: &RasterParameters) -> ThresholdInputs {
             temporal_level: 0,
             temporal_min_count: 1,
             summary_level: 0,
-        };
+        }
+        .into();
     }
-    ThresholdInputs::from_camera(&recipe.design())
+    PortThresholds::of_camera(&recipe.design())
 }
 
 /// A clip with the thresholds of each frame.
@@ -105,10 +110,21 @@ fn check_sequence(
     script: &ClipScript,
     clocks: i64,
 ) -> RasterCheckResult {
+    check_zoned_sequence(driver, recipe, script, clocks, &mut ClassMapLog::new(&recipe.base))
+}
+
+/// Plays frames after a reset, and stops after some clocks. `maps` has all edges before.
+pub(crate) fn check_zoned_sequence(
+    driver: &mut RasterDriver,
+    recipe: &RasterParameters,
+    script: &ClipScript,
+    clocks: i64,
+    maps: &mut ClassMapLog,
+) -> RasterCheckResult {
     let clip = RasterClip::new(recipe, script);
     let rest = 40 + recipe.words() / 2;
     let trace = driver.run(&clip.stimuli(), rest, clocks);
-    RasterOracle::check(recipe, &clip.recipes, &clip.frames, &trace)
+    RasterOracle::check_with_maps(recipe, &clip.recipes, &clip.frames, &trace, maps)
 }
 
 proptest! {

@@ -12,6 +12,7 @@ use super::driver::RasterTrace;
 use super::raster_parameters::RasterParameters;
 use super::readout::ReadoutHistory;
 use super::streams::ExternalStoreStreams;
+use crate::class_maps::ClassMapLog;
 use crate::oracle::{OracleOutcome, oracle_region, outcome_without_regions};
 
 /// The result of a check: a description of the first difference, if there is one.
@@ -21,6 +22,7 @@ pub(crate) struct RasterOracle<'a> {
     recipe: &'a RasterParameters,
     trace: &'a RasterTrace,
     history: Vec<OracleOutcome>,
+    maps: FrameMaps,
     /// The frame and the region that are decided at an edge.
     decisions: BTreeMap<i64, (usize, i64)>,
     readouts: ReadoutHistory,
@@ -33,6 +35,47 @@ pub(crate) struct RasterOracle<'a> {
     second_pass_end: i64,
 }
 
+/// The maps of classes that the frames of a trace use.
+struct FrameMaps {
+    log: ClassMapLog,
+    /// The number of edges in the log before the trace.
+    start: i64,
+    of_frames: Vec<Vec<u8>>,
+}
+
+impl FrameMaps {
+    /// Adds a frame whose advances happen at these edges, as far as they came. The frame has `all`
+    /// advances.
+    fn add_frame(&mut self, trace: &RasterTrace, edges: &[i64], all: i64) {
+        let Some((&first, &last)) = edges.first().zip(edges.last()) else {
+            self.of_frames.push(Vec::new());
+            return;
+        };
+        self.log_until(trace, first - 1, false);
+        let is_whole = edges.len() as i64 == all;
+        self.log_until(trace, if is_whole { last } else { trace.end() }, true);
+        self.of_frames.push(self.log.map_of_frame(self.start + first));
+    }
+
+    /// Logs the edges up to `last` that have not been logged.
+    fn log_until(&mut self, trace: &RasterTrace, last: i64, are_occupied: bool) {
+        for edge in self.log.edge() - self.start + 1..=last {
+            self.log.push(trace.maps[edge as usize], are_occupied);
+        }
+    }
+
+    /// Compares `zone_pending_o` after every edge, after the last frame has been added.
+    fn compare(&mut self, trace: &RasterTrace) -> RasterCheckResult {
+        self.log_until(trace, trace.end(), false);
+        for (edge, got) in (0..).zip(&trace.shown) {
+            if got.zone_pending != self.log.is_pending_after(self.start + edge) {
+                return Err(format!("zone_pending_o is {} after edge {edge}", got.zone_pending));
+            }
+        }
+        Ok(())
+    }
+}
+
 impl<'a> RasterOracle<'a> {
     /// Compares the outputs with those that follow from the frames and the inputs. `recipes` has
     /// the thresholds of each frame.
@@ -42,10 +85,23 @@ impl<'a> RasterOracle<'a> {
         clip: &[Frame],
         trace: &'a RasterTrace,
     ) -> RasterCheckResult {
+        Self::check_with_maps(recipe, recipes, clip, trace, &mut ClassMapLog::new(&recipe.base))
+    }
+
+    /// Compares the outputs like [`Self::check`]. `log` has the edges before those of the trace,
+    /// and gets those of the trace.
+    pub(crate) fn check_with_maps(
+        recipe: &'a RasterParameters,
+        recipes: &[RasterParameters],
+        clip: &[Frame],
+        trace: &'a RasterTrace,
+        log: &mut ClassMapLog,
+    ) -> RasterCheckResult {
         let mut oracle = Self {
             recipe,
             trace,
             history: Vec::new(),
+            maps: FrameMaps { start: log.edge(), log: log.clone(), of_frames: Vec::new() },
             decisions: BTreeMap::new(),
             readouts: ReadoutHistory::new(recipe.deep, recipe.misread.rest),
             streams: ExternalStoreStreams::default(),
@@ -63,7 +119,10 @@ impl<'a> RasterOracle<'a> {
             ready = oracle.process_frame(ready, number, frame, &recipes[..=number])?;
         }
         oracle.set_ready(ready..=trace.end());
-        oracle.process_until(trace.end(), recipes)
+        oracle.process_until(trace.end(), recipes)?;
+        oracle.maps.compare(trace)?;
+        *log = oracle.maps.log;
+        Ok(())
     }
 
     /// Processes a frame before which `ready_o` is 1 from edge `ready` on, and returns that edge of
@@ -77,6 +136,7 @@ impl<'a> RasterOracle<'a> {
     ) -> Result<i64, String> {
         let recipe = self.recipe;
         let edges = self.advance_edges(ready);
+        self.maps.add_frame(self.trace, &edges, recipe.advances());
         let outcome = outcome_without_regions(&recipe.base, frame);
         let tail = |word: i64| edges.get((word + recipe.flush_advances()) as usize).copied();
         if recipe.has_external_store() {
@@ -175,7 +235,8 @@ impl<'a> RasterOracle<'a> {
         let (before, from) = self.history.split_at(frame);
         let trusts_memory = !self.recipe.has_external_store() || self.recipe.misread.trusts_memory;
         let kept = if trusts_memory { before } else { self.streams.history(frame) };
-        let outcome = oracle_region(&recipes[frame].base, (before, kept), &from[0], region);
+        let own = recipes[frame].base.of_class(self.maps.of_frames[frame][region as usize]);
+        let outcome = oracle_region(&own, (before, kept), &from[0], region);
         let words = match outcome.action {
             "forward" if self.recipe.forward => self.recipe.region_words(),
             "summarize" => outcome.means.len() as i64,

@@ -6,7 +6,7 @@ use foveate_design::{Design, FrameStoreKind, Organization, Pipelining};
 use proptest::prelude::*;
 use proptest::sample::select;
 
-use crate::parameters::{DesignParameters, arbitrary_parameters_with_sides};
+use crate::parameters::{DesignParameters, arbitrary_parameters_with_sides, arbitrary_zones_of};
 
 #[derive(Clone, Debug)]
 pub(crate) struct RasterParameters {
@@ -236,4 +236,12 @@ pub(crate) fn arbitrary_raster_parameters() -> impl Strategy<Value = RasterParam
                 misread: PlantedMisreading::default(),
             }
         })
+}
+
+/// Generates every kind of raster design with zones.
+pub(crate) fn arbitrary_zoned_raster_parameters() -> impl Strategy<Value = RasterParameters> {
+    arbitrary_raster_parameters().prop_flat_map(|recipe| {
+        arbitrary_zones_of(recipe.base.clone())
+            .prop_map(move |base| RasterParameters { base, ..recipe.clone() })
+    })
 }

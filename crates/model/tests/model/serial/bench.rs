@@ -3,11 +3,13 @@
 
 use foveate_design::FeatureKind;
 use foveate_frame::Frame;
-use foveate_model::{CoreInput, SerialRcm, ThresholdInputs, pad, region_stream};
+use foveate_model::{ClassMapInputs, CoreInput, SerialRcm, pad, region_stream};
 
-use super::expected_outputs::{ExpectedTimeline, MeaningfulOutputs, RegionResults};
+use super::expected_outputs::{ExpectedTimeline, MeaningfulOutputs, RegionResults, region_results};
 use super::serial_parameters::SerialParameters;
+use crate::class_maps::{ClassMapLog, ClassMapWriter, PortThresholds, ZonedFrame};
 use crate::frames::SeededRandom;
+use crate::oracle::OracleOutcome;
 
 /// The pattern in which pixels come.
 #[derive(Clone, Copy, Debug)]
@@ -31,8 +33,10 @@ impl SerialTraffic {
 /// The pixels of a frame in the order of the ports, and the expected results.
 pub(crate) struct SerialStimulus {
     pub(crate) pixels: Vec<Vec<u16>>,
-    pub(crate) thresholds: ThresholdInputs,
+    pub(crate) thresholds: PortThresholds,
     pub(crate) facts: Vec<RegionResults>,
+    /// The frame of a design with zones, whose results follow from its map and not from `facts`.
+    pub(crate) zoned: Option<ZonedFrame>,
 }
 
 /// The result of a check: a description of the first difference, if there is one.
@@ -49,7 +53,12 @@ pub(crate) struct SerialBench {
     /// The edge after which the run ends.
     last_edge: i64,
     /// Thresholds that are applied between frames.
-    noise: ThresholdInputs,
+    noise: PortThresholds,
+    maps: ClassMapLog,
+    /// The writer of maps, if the array has zones.
+    writer: Option<ClassMapWriter>,
+    /// The results of the frames with zones since the last reset.
+    history: Vec<OracleOutcome>,
     /// The number of clocks by which all expectations are late. It is 0 unless a test wants an
     /// error.
     pub(crate) late: i64,
@@ -57,14 +66,19 @@ pub(crate) struct SerialBench {
 
 impl SerialBench {
     pub(crate) fn new(recipe: &SerialParameters, rcm: SerialRcm, traffic: SerialTraffic) -> Self {
+        let clocks = recipe.frame_pixels() + recipe.steps_per_frame();
+        let writer = |_| ClassMapWriter::new(&recipe.base, clocks, traffic.seed);
         Self {
             rcm,
-            timeline: ExpectedTimeline::default(),
+            maps: ClassMapLog::new(&recipe.base),
+            writer: recipe.base.zones.as_ref().map(writer),
+            history: Vec::new(),
+            timeline: ExpectedTimeline::new(),
             traffic,
             random: SeededRandom(traffic.seed),
             edge: 0,
             last_edge: i64::MAX,
-            noise: ThresholdInputs::from_camera(&recipe.design()),
+            noise: PortThresholds::of_camera(&recipe.design()),
             late: 0,
             recipe: recipe.clone(),
         }
@@ -101,15 +115,23 @@ impl SerialBench {
                 return Ok(());
             }
             let last = pixel + 1 == job.pixels.len();
-            let facts = last.then_some(&job.facts[..]);
-            self.timeline.take(&self.recipe, self.edge + 1, pixel as i64, facts);
+            let facts = last.then(|| self.frame_results(job));
+            self.timeline.take(&self.recipe, self.edge + 1, pixel as i64, facts.as_deref());
             self.step(false, true, pixels, &job.thresholds)?;
         }
         Ok(())
     }
 
+    /// Returns the results of a frame whose last pixel is taken at the next edge.
+    fn frame_results(&mut self, job: &SerialStimulus) -> Vec<RegionResults> {
+        let Some(zoned) = &job.zoned else { return job.facts.clone() };
+        let map = self.maps.map_of_frame(*self.timeline.occupied.start());
+        zoned.add_to_history(&map, &mut self.history);
+        region_results(self.history.last().unwrap())
+    }
+
     /// Waits until the array is ready again.
-    fn wait(&mut self, thresholds: &ThresholdInputs) -> SerialCheckResult {
+    fn wait(&mut self, thresholds: &PortThresholds) -> SerialCheckResult {
         while !self.timeline.is_ready(self.edge) && !self.is_over() {
             if self.traffic.skips && self.random.below(3) > 0 {
                 let left = self.timeline.ready_from - self.edge;
@@ -125,7 +147,7 @@ impl SerialBench {
         Ok(())
     }
 
-    fn idle(&mut self, clocks: i64, thresholds: &ThresholdInputs) -> SerialCheckResult {
+    fn idle(&mut self, clocks: i64, thresholds: &PortThresholds) -> SerialCheckResult {
         for _ in 0..clocks {
             if !self.is_over() {
                 let junk = self.ignored_pixels();
@@ -137,6 +159,7 @@ impl SerialBench {
 
     pub(crate) fn reset(&mut self, valid: bool) -> SerialCheckResult {
         self.timeline.reset(self.edge + 1);
+        self.history.clear();
         let junk = self.ignored_pixels();
         self.change_ignored_thresholds();
         self.step(true, valid, &junk, &self.noise.clone())
@@ -147,14 +170,32 @@ impl SerialBench {
         reset: bool,
         valid: bool,
         pixels: &[u16],
-        thresholds: &ThresholdInputs,
+        thresholds: &PortThresholds,
     ) -> SerialCheckResult {
         self.edge += 1;
-        self.rcm.step(&CoreInput { reset, valid, ..CoreInput::idle(pixels, thresholds) });
+        let map = self.map_inputs();
+        if reset {
+            self.maps.push_reset();
+        } else {
+            self.maps.push(map, self.timeline.occupied.contains(&self.edge));
+        }
+        let zones = self.writer.is_some().then(|| thresholds.zone_inputs(map));
+        let idle = CoreInput::idle(pixels, &thresholds.own);
+        self.rcm.step(&CoreInput { reset, valid, zones, ..idle });
         self.compare()
     }
 
+    /// Returns the inputs of the memory of classes at the current edge.
+    fn map_inputs(&mut self) -> ClassMapInputs {
+        let (first, last) = (*self.timeline.occupied.start(), *self.timeline.occupied.end());
+        let is_inside = (first + 2..last - 1).contains(&self.edge);
+        self.writer.as_mut().map(|writer| writer.next(!is_inside)).unwrap_or_default()
+    }
+
     fn skip(&mut self, clocks: i64) -> SerialCheckResult {
+        for edge in self.edge + 1..=self.edge + clocks {
+            self.maps.push(ClassMapInputs::default(), self.timeline.occupied.contains(&edge));
+        }
         self.edge += clocks;
         self.rcm.skip(clocks as u64);
         self.compare()
@@ -164,6 +205,9 @@ impl SerialBench {
         let (edge, output) = (self.edge, self.rcm.output());
         if output.ready != self.timeline.is_ready(edge) {
             return Err(format!("ready_o is {} after edge {edge}", output.ready));
+        }
+        if output.zone_pending != self.maps.is_pending_after(edge) {
+            return Err(format!("zone_pending_o is {} after edge {edge}", output.zone_pending));
         }
         let (shown, expected) =
             (MeaningfulOutputs::from_output(output), self.timeline.outputs_after(edge - self.late));
@@ -175,11 +219,13 @@ impl SerialBench {
 
     /// Changes the thresholds between frames, which the array must ignore.
     fn change_ignored_thresholds(&mut self) {
-        self.noise.temporal_level = self.random.below(2) as u32;
-        self.noise.temporal_min_count = self.random.below(5) as u32;
-        self.noise.summary_level = self.random.below(2) as u32;
-        self.noise.level = [self.random.below(9) as u32; FeatureKind::COUNT];
-        self.noise.min_score = [self.random.below(9) as u64; FeatureKind::COUNT];
+        let mut noise = self.noise.own;
+        noise.temporal_level = self.random.below(2) as u32;
+        noise.temporal_min_count = self.random.below(5) as u32;
+        noise.summary_level = self.random.below(2) as u32;
+        noise.level = [self.random.below(9) as u32; FeatureKind::COUNT];
+        noise.min_score = [self.random.below(9) as u64; FeatureKind::COUNT];
+        self.noise = noise.into();
     }
 
     /// Returns pixels that the array must ignore.

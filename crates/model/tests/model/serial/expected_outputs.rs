@@ -3,6 +3,7 @@
 //! extended frame by frame, and is the only state.
 
 use std::collections::BTreeMap;
+use std::ops::RangeInclusive;
 
 use foveate_model::SerialOutput;
 
@@ -199,14 +200,21 @@ fn forward_position(recipe: &SerialParameters, phase: ExpectedPhase, number: i64
 }
 
 /// The expected outputs by edge.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(crate) struct ExpectedTimeline {
     shown: BTreeMap<i64, MeaningfulOutputs>,
     /// The first edge after which `ready_o` is 1 again.
     pub(crate) ready_from: i64,
+    /// The edges that the last frame occupies, as far as they are known.
+    pub(crate) occupied: RangeInclusive<i64>,
 }
 
 impl ExpectedTimeline {
+    /// Makes the expectations before the first edge.
+    pub(crate) fn new() -> Self {
+        Self { shown: BTreeMap::new(), ready_from: 0, occupied: 0..=0 }
+    }
+
     pub(crate) fn is_ready(&self, edge: i64) -> bool {
         edge >= self.ready_from
     }
@@ -219,6 +227,7 @@ impl ExpectedTimeline {
     pub(crate) fn reset(&mut self, edge: i64) {
         self.shown.split_off(&edge);
         self.ready_from = edge;
+        self.occupied = 0..=0;
     }
 
     /// Records a pixel of a frame that is taken at this edge. With the last pixel come the expected
@@ -232,8 +241,12 @@ impl ExpectedTimeline {
     ) {
         let taken = edge + recipe.clocks_of_pixel(pixel) - 1;
         self.ready_from = taken;
+        if pixel == 0 {
+            self.occupied = edge..=i64::MAX;
+        }
         if let Some(results) = results {
             self.ready_from = taken + 1 + recipe.steps_per_frame();
+            self.occupied = *self.occupied.start()..=taken + recipe.steps_per_frame();
             let first = taken + 1 + recipe.read_latency();
             let outputs = step_outputs(recipe, results)
                 .into_iter()

@@ -10,3 +10,4 @@ mod planted_faults;
 mod properties;
 mod serial_parameters;
 mod streams;
+mod zones;

@@ -3,17 +3,18 @@
 //! are not taken, thresholds that change between frames, skipped clocks, and resets at any edge.
 
 use foveate_design::FeatureKind;
-use foveate_model::{CoreInput, SerialRcm, ThresholdInputs};
+use foveate_model::{ClassMapInputs, CoreInput, SerialRcm, ThresholdInputs};
 use proptest::prelude::*;
 
 use super::bench::{SerialBench, SerialCheckResult, SerialStimulus, SerialTraffic, port_pixels};
 use super::expected_outputs::region_results;
 use super::serial_parameters::{SerialParameters, arbitrary_serial_parameters};
+use crate::class_maps::{PortThresholds, ZonedFrame};
 use crate::frames::{ClipScript, SeededRandom, arbitrary_scripts, make_clip};
 use crate::oracle::oracle_history_with_thresholds;
 use crate::parameters::DesignParameters;
 
-fn arbitrary_traffic() -> impl Strategy<Value = SerialTraffic> {
+pub(crate) fn arbitrary_traffic() -> impl Strategy<Value = SerialTraffic> {
     let gaps = prop_oneof![2 => Just(0i64), 1 => 1i64..70];
     let pushing = prop_oneof![Just(0i64), Just(50), Just(100)];
     (gaps, 0i64..20, pushing, any::<bool>(), any::<u64>()).prop_map(
@@ -44,11 +45,14 @@ fn with_other_thresholds(recipe: &DesignParameters, seed: u64) -> DesignParamete
     if let Some(periphery) = &mut recipe.periphery {
         periphery.level /= 1 + random.below(3);
     }
+    if let Some(zones) = &mut recipe.zones {
+        zones.reduce(&mut random);
+    }
     recipe
 }
 
 /// Returns the values of the threshold inputs. They are arbitrary if the core has constants.
-fn applied_thresholds(recipe: &DesignParameters) -> ThresholdInputs {
+fn applied_thresholds(recipe: &DesignParameters) -> PortThresholds {
     if recipe.constant {
         let (level, min_score) = ([1; FeatureKind::COUNT], [1; FeatureKind::COUNT]);
         return ThresholdInputs {
@@ -57,9 +61,10 @@ fn applied_thresholds(recipe: &DesignParameters) -> ThresholdInputs {
             temporal_level: 0,
             temporal_min_count: 1,
             summary_level: 0,
-        };
+        }
+        .into();
     }
-    ThresholdInputs::from_camera(&recipe.camera())
+    PortThresholds::of_camera(&recipe.camera())
 }
 
 /// Returns a clip with the thresholds of each frame and the results of the oracle.
@@ -72,12 +77,16 @@ pub(crate) fn stimuli(recipe: &SerialParameters, script: &ClipScript) -> Vec<Ser
         pixels: port_pixels(recipe, frame),
         thresholds: applied_thresholds(changed),
         facts: region_results(outcome),
+        zoned: recipe.base.zones.as_ref().map(|_| {
+            let (recipe, frame) = (changed.clone(), (*frame).clone());
+            ZonedFrame { recipe, frame }
+        }),
     };
     clip.iter().zip(&history).zip(&recipes).map(job).collect()
 }
 
 /// Runs some edges, resets the array, and runs a new clip from its start.
-fn run_with_reset(
+pub(crate) fn run_with_reset(
     bench: &mut SerialBench,
     before: &[SerialStimulus],
     after: &[SerialStimulus],
@@ -92,6 +101,38 @@ fn run_with_reset(
         bench.reset(false)?;
     }
     bench.run(after)
+}
+
+/// Checks that clocks that are skipped after `cut` leave the same state as clocks that are not.
+pub(crate) fn check_skipping(
+    recipe: &SerialParameters,
+    script: &ClipScript,
+    cut: u64,
+    clocks: u64,
+) -> Result<(), TestCaseError> {
+    let jobs = stimuli(recipe, script);
+    let rcm = SerialRcm::new(recipe.design().as_serial().unwrap());
+    let mut bench =
+        SerialBench::new(recipe, rcm, SerialTraffic { seed: cut, ..SerialTraffic::DENSE });
+    let frame = recipe.frame_pixels() + recipe.steps_per_frame() + 1;
+    bench.stop_after(SeededRandom(cut).below(frame * jobs.len() as i64));
+    prop_assert_eq!(bench.run(&jobs), Ok(()));
+    let (mut stepped, mut skipped) = (bench.rcm.clone(), bench.rcm);
+    let (pixels, thresholds) = (vec![0; recipe.port_pixels() as usize], jobs[0].thresholds);
+    let zones = recipe.base.zones.as_ref();
+    let zones = zones.map(|_| thresholds.zone_inputs(ClassMapInputs::default()));
+    let idle = CoreInput { zones, ..CoreInput::idle(&pixels, &thresholds.own) };
+    let (ready_in, quiet) = (stepped.clocks_until_ready(), stepped.quiet_clocks());
+    let before = stepped.output().clone();
+    for clock in 0..clocks {
+        prop_assert_eq!(stepped.output().ready, clock >= ready_in);
+        prop_assert!(clock > quiet || stepped.output() == &before, "a quiet clock");
+        stepped.step(&idle);
+    }
+    skipped.skip(clocks);
+    prop_assert_eq!(skipped.output(), stepped.output());
+    prop_assert!(skipped == stepped, "the same state");
+    Ok(())
 }
 
 proptest! {
@@ -132,22 +173,6 @@ proptest! {
         cut in any::<u64>(),
         clocks in prop_oneof![0u64..5, 0u64..100_000],
     ) {
-        let jobs = stimuli(&recipe, &script);
-        let mut bench = SerialBench::new(&recipe, SerialRcm::new(recipe.design().as_serial().unwrap()), SerialTraffic::DENSE);
-        let frame = recipe.frame_pixels() + recipe.steps_per_frame() + 1;
-        bench.stop_after(SeededRandom(cut).below(frame * jobs.len() as i64));
-        prop_assert_eq!(bench.run(&jobs), Ok(()));
-        let (mut stepped, mut skipped) = (bench.rcm.clone(), bench.rcm);
-        let (pixels, thresholds) = (vec![0; recipe.port_pixels() as usize], jobs[0].thresholds);
-        let idle =
-            CoreInput::idle(&pixels, &thresholds);
-        let ready_in = stepped.clocks_until_ready();
-        for clock in 0..clocks {
-            prop_assert_eq!(stepped.output().ready, clock >= ready_in);
-            stepped.step(&idle);
-        }
-        skipped.skip(clocks);
-        prop_assert_eq!(skipped.output(), stepped.output());
-        prop_assert!(skipped == stepped, "the same state");
+        check_skipping(&recipe, &script, cut, clocks)?;
     }
 }

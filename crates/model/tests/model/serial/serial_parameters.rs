@@ -8,6 +8,7 @@ use proptest::sample::select;
 
 use crate::parameters::{
     DesignParameters, FeatureParameters, PeripheryParameters, arbitrary_parameters_with_sides,
+    arbitrary_zones_of,
 };
 
 #[derive(Clone, Debug)]
@@ -101,6 +102,7 @@ impl SerialParameters {
         let (n, p, q) = (self.base.region_pixels(), i64::from(self.base.bits), self.read_latency());
         let (median, copies) = (self.base.has_filter(), self.copies_reference());
         let mut phases = Vec::new();
+        phases.extend(self.base.zones.as_ref().map(|_| WithoutOutput(self.lanes())));
         if median {
             let per_pixel = match self.base.filter {
                 "median3x3" => 10 * p + 3 + i64::from(copies),
@@ -242,4 +244,17 @@ pub(crate) fn arbitrary_serial_parameters() -> impl Strategy<Value = SerialParam
                 base: DesignParameters { deep, ..base },
             }
         })
+}
+
+/// Generates every kind of serial design with zones. A few have more regions than a word of the
+/// map.
+pub(crate) fn arbitrary_zoned_serial_parameters() -> impl Strategy<Value = SerialParameters> {
+    (arbitrary_serial_parameters(), 0i64..8).prop_flat_map(|(mut recipe, more)| {
+        if more == 0 && recipe.base.side < 6 {
+            recipe.base.width += 6 * recipe.base.side;
+            recipe.base.height += recipe.base.side;
+        }
+        let SerialParameters { base, raster, fold } = recipe;
+        arbitrary_zones_of(base).prop_map(move |base| SerialParameters { base, raster, fold })
+    })
 }

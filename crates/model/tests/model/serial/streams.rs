@@ -99,8 +99,9 @@ proptest! {
         let streams = streams(&recipe, frames, seed);
         let job = |(frame, facts): (&Vec<Vec<u16>>, Vec<RegionResults>)| SerialStimulus {
             pixels: by_port(&recipe, frame),
-            thresholds: ThresholdInputs::from_camera(&recipe.design()),
+            thresholds: ThresholdInputs::from_camera(&recipe.design()).into(),
             facts,
+            zoned: None,
         };
         let jobs: Vec<SerialStimulus> = streams.iter().zip(pipelined_facts(&recipe, &streams)).map(job).collect();
         let rcm = SerialRcm::new(recipe.design().as_serial().unwrap());
