@@ -8,7 +8,7 @@ module properties #(
     input wire clk_i, rst_i, ready, begins, any_first, any_closed, any_row_valid, any_row_frame, any_region_valid, any_region_frame,
     any_summary, input wire [63:0] any_time, input wire [31:0] rate, any_number, input wire [3:0] any_dropped,
     input wire [2:0] any_dropped_rows, input wire [1:0] any_row, any_region_row, any_column,
-    input wire any_row_value, any_region_value, input wire [BITS-1:0] any_part
+    input wire any_row_value, any_region_value, input wire [BITS-1:0] any_part, input wire [15:0] any_version
 );
     `include "reset.vh"
     localparam PARTS = 64 / BITS, ROWS = 2, COLUMNS = 3, LONGEST = 7;
@@ -28,6 +28,7 @@ module properties #(
     // The waiting frame.
     reg announced, open, front, first, frame, closed;
     reg [63:0] time_q;
+    reg [15:0] version;
     reg [31:0] number, rate_q;
     reg [3:0] dropped, sent;
     reg [2:0] dropped_rows;
@@ -45,7 +46,7 @@ module properties #(
         .MEANS_SIDE(3), .IRRELEVANT(2), .RAW(RAW), .FINGERPRINT(FINGERPRINT)
     ) dut (
         .clk_i(clk_i), .rst_i(rst_i), .announced_i(announced), .first_i(first), .time_i(time_q), .rate_i(rate_q), .number_i(number),
-        .frame_i(frame), .closed_i(closed), .dropped_i(dropped), .dropped_rows_i(dropped_rows), .opened_o(opened), .ended_o(ended),
+        .map_version_i(version), .frame_i(frame), .closed_i(closed), .dropped_i(dropped), .dropped_rows_i(dropped_rows), .opened_o(opened), .ended_o(ended),
         .idle_o(idle), .row_valid_i(row_valid), .row_frame_i(row_frame), .row_i(row), .row_part_i(row_part), .row_take_o(row_take),
         .region_valid_i(region_valid), .region_frame_i(region_frame), .region_summary_i(summary), .region_row_i(region_row),
         .region_column_i(column), .region_part_i(region_part), .region_take_o(region_take), .read_o(read), .part_o(part),
@@ -64,7 +65,7 @@ module properties #(
         // The rate is a constant of the core.
         if (!started) rate_q <= rate;
         if (opened) {announced, open} <= 2'b01;
-        if (begins) {announced, first, time_q} <= {1'b1, any_first, any_time};
+        if (begins) {announced, first, time_q, version} <= {1'b1, any_first, any_time, any_version};
         if (ended) open <= 0;
         front <= announced && !open && !opened;
         if (announced && !open && !front) number <= any_number;
@@ -91,7 +92,7 @@ module properties #(
     wire [15:0] length = 2 + (opened ? 5 : ended ? 1 : row_take ? ROW_WORDS : means ? MEAN_WORDS : PIXEL_WORDS);
     wire [3:0] flags = {1'b0, means, region_take && RAW != 0, opened ? first : ended && (dropped != 0 || dropped_rows != 0)};
     wire [15:0] row_field = opened ? 1 : ended ? dropped_rows : row_take ? row : region_row;
-    wire [15:0] column_field = row_take ? COLUMNS : region_take ? column : 0;
+    wire [15:0] column_field = row_take ? COLUMNS : region_take ? column : opened ? version : 0;
     reg [63:0] word;
     always @* begin
         word = {28'd0, dropped, 28'd0, sent};

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // An arbitrary region is followed through its rotations: its temporal count, then its features in order. The flags that move with
 // the ring return as they left. The decision must be that of Table I for its scores.
-module properties #(parameter FEATURES = 1, parameter ALL = 0, parameter LAST_SENT = 0, parameter BLANKS = 1, parameter SUMMARIES = 0, parameter FLOW_INDEX = 0) (
+module properties #(parameter FEATURES = 1, parameter ALL = 0, parameter LAST_SENT = 0, parameter BLANKS = 1, parameter SUMMARIES = 0, parameter FLOW_INDEX = 0, parameter ZONES = 0) (
     input wire clk_i, rst_i, frame, rotate, summary,
     input wire [1:0] index, input wire [2:0] region,
     input wire [2:0] word, input wire [1:0] some_flags, input wire [3*(FEATURES+1)-1:0] minima,
-    input wire [1:0] moved
+    input wire [1:0] moved, any_class, input wire [3*(FEATURES+1)-1:0] keen_minima
 );
     `include "reset.vh"
     localparam FLAGS = FEATURES > 1 || SUMMARIES ? 2 : 1;
@@ -29,11 +29,11 @@ module properties #(parameter FEATURES = 1, parameter ALL = 0, parameter LAST_SE
     serial_decision #(
         .CHAIN_BITS(3), .SCORE_BITS(3), .PIXELS(PIXELS), .FEATURES(FEATURES), .ALL(ALL), .SUMMARIES(SUMMARIES),
         .FLAGS(FLAGS), .LAST_SENT(LAST_SENT), .BLANKS(BLANKS), .REGIONS(REGIONS), .SLOTS(SLOTS), .REGION_BITS(3),
-        .INDEX_BITS(INDEX_BITS), .FLOW_INDEX(FLOW_INDEX), .DISPLACEMENT_BITS(2)
+        .INDEX_BITS(INDEX_BITS), .FLOW_INDEX(FLOW_INDEX), .DISPLACEMENT_BITS(2), .ZONES(ZONES)
     ) dut (
         .clk_i(clk_i), .rst_i(rst_i), .frame_i(frame), .rotate_i(rotate), .index_i(index[INDEX_BITS-1:0]),
         .region_i(region), .word_i(word), .flags_i(here ? kept : some_flags[FLAGS-1:0]),
-        .minima_i(minima), .summary_i(summary), .flags_o(flags), .region_valid_o(region_valid), .score_valid_o(score_valid),
+        .minima_i(minima), .keen_minima_i(keen_minima), .class_i(here ? region_class : any_class), .summary_i(summary), .flags_o(flags), .region_valid_o(region_valid), .score_valid_o(score_valid),
         .displacement_i(moved), .displacement_o(displacement), .score_o(score), .decision_valid_o(decision_valid), .srs_o(srs), .trs_o(trs), .active_o(active)
     );
     // The sequencer: each rotation once, in order; the frame is done after the last.
@@ -46,9 +46,12 @@ module properties #(parameter FEATURES = 1, parameter ALL = 0, parameter LAST_SE
     reg referenced, voted_trs, voted_any, voted_all;
     wire flow = FLOW_INDEX != 0 && index == FLOW_INDEX;
     wire [2:0] final_score = index == 0 && !referenced ? PIXELS : flow && !referenced ? 0 : word;
-    wire votes = final_score >= minima[3*index+:3];
+    (* anyconst *) wire [1:0] region_class;  // of the watched region
+    wire [3*(FEATURES+1)-1:0] own_minima = ZONES != 0 && region_class == 2 ? keen_minima : minima;
+    wire votes = final_score >= own_minima[3*index+:3];
     wire any = (index > 1 && voted_any) || votes, every = (index <= 1 || voted_all) && votes;
-    wire relevant = ALL != 0 ? every : any;
+    wire voted = ALL != 0 ? every : any;
+    wire relevant = ZONES != 0 && region_class == 3 || (voted && !(ZONES != 0 && region_class == 1));
     always @(posedge clk_i) begin
         if (rst_i) begin
             expected   <= 0;

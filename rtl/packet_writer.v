@@ -30,6 +30,7 @@ module packet_writer #(
     input  wire [           63:0] time_i,              // time at which this frame began, in ticks
     input  wire [           31:0] rate_i,              // number of ticks per second
     input  wire [           31:0] number_i,            // number of this frame
+    input  wire [           15:0] map_version_i,       // version of its map of classes; 0 without zones
     input  wire                   frame_i,             // lowest bit of its number since reset
     input  wire                   closed_i,            // all decisions of this frame are made, and none of its regions is under way
     input  wire [  REGION_BITS:0] dropped_i,           // number of its regions that were dropped
@@ -172,7 +173,8 @@ module packet_writer #(
     wire [15:0] row = kind_q == FRAME ? 16'd1
                     : kind_q == ROW ? {{(16 - ROW_BITS) {1'b0}}, row_i}
                     : kind_q == END ? {{(15 - ROW_BITS) {1'b0}}, dropped_rows_i} : {{(16 - ROW_BITS) {1'b0}}, region_row_i};
-    wire [15:0] column = kind_q == ROW ? COLUMNS[15:0] : is_region ? {{(16 - COLUMN_BITS) {1'b0}}, region_column_i} : 16'd0;
+    wire [15:0] column = kind_q == ROW ? COLUMNS[15:0] : is_region ? {{(16 - COLUMN_BITS) {1'b0}}, region_column_i}
+                       : kind_q == FRAME ? map_version_i : 16'd0;
     wire [63:0] head = {column, row, words, flags, is_region ? REGION : kind_q, 8'hFA};
     wire [63:0] end_1 = {{(31 - REGION_BITS) {1'b0}}, dropped_i, {(31 - REGION_BITS) {1'b0}}, sent_q};
     wire [63:0] frame_4 = {FRAME_HEIGHT[15:0], FRAME_WIDTH[15:0], rate_i};

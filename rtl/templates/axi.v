@@ -100,7 +100,12 @@ module rcm_axi #(
     wire rst = !aresetn;
     wire enable, waits, restart, busy, idle_video, idle_packets;
     reg restarting_q;
+{%- if class_address_bits.is_some() %}
+    wire zone_write, zone_commit;
+    wire forget = restarting_q && !busy && idle_video && idle_packets && !zone_write && !zone_commit;
+{%- else %}
     wire forget = restarting_q && !busy && idle_video && idle_packets;
+{%- endif %}
     always @(posedge aclk) restarting_q <= !rst && !forget && (restarting_q || restart);
 {%- if !array_ports_outside.is_empty() %}
     assign forget_o = forget;
@@ -127,6 +132,38 @@ module rcm_axi #(
         .skip_o(frame_skipped), .repair_o(frame_damaged), .sof_early_o(sof_early), .sof_late_o(sof_late),
         .eol_early_o(eol_early), .eol_late_o(eol_late)
     );
+
+{%- if let Some(bits) = class_address_bits %}
+
+    // The map of classes. A commit waits while a frame begins, so that its FRAME packet has the version of the map that it uses.
+    // The version and a commit that waits stay at a reset, as the map does.
+    wire [31:0] zone_word;
+    wire [{= bits - 1 =}:0] zone_address;
+    wire zone_word_write, zone_address_write, zone_commit_write, array_pending;
+    reg [{= bits - 1 =}:0] zone_address_q;
+    reg commit_q = 1'b0;
+    reg opening_q;  // the first word of a frame has not reached the array yet
+    reg [15:0] version_q = 16'd0;
+    reg [15:0] frame_version_q;
+    wire zone_pending = commit_q || array_pending;
+    assign zone_write = zone_word_write && !zone_pending;
+    assign zone_commit = commit_q && !rst && !frame_begins && !opening_q;
+    always @(posedge aclk) begin
+        opening_q <= !rst && (frame_begins || (opening_q && !(word_valid && word_ready)));
+        if (frame_begins) frame_version_q <= version_q;
+        if (zone_write) zone_address_q <= zone_address_q + 1'b1;
+        if (zone_address_write) zone_address_q <= zone_address;
+        if (zone_commit) begin
+            commit_q  <= 1'b0;
+            version_q <= version_q + 1'b1;
+        end
+        if (zone_commit_write && !zone_pending && !rst) begin
+            commit_q       <= 1'b1;
+            zone_address_q <= {{= bits =}{1'b0}};
+        end
+        if (rst) zone_address_q <= {{= bits =}{1'b0}};
+    end
+{%- endif %}
 
     // The array, which docs/raster.md calls the core.
     wire decision_valid, srs, trs, active, summary;
@@ -202,7 +239,7 @@ module rcm_axi #(
         .IRRELEVANT({= irrelevant =}), .RAW({= raw =}), .FINGERPRINT(64'h{= fingerprint =})
     ) u_writer (
         .clk_i(aclk), .rst_i(rst), .announced_i(announced), .first_i(first), .time_i(frame_time), .rate_i(TICK_RATE),
-        .number_i(number), .frame_i(frame), .closed_i(closed), .dropped_i(dropped), .dropped_rows_i(dropped_rows),
+        .number_i(number), .map_version_i({% if class_address_bits.is_some() %}frame_version_q{% else %}16'd0{% endif %}), .frame_i(frame), .closed_i(closed), .dropped_i(dropped), .dropped_rows_i(dropped_rows),
         .opened_o(opened), .ended_o(ended), .idle_o(idle_packets), .row_valid_i(row_valid), .row_frame_i(row_frame),
         .row_i(row), .row_part_i(row_part), .row_take_o(row_take), .region_valid_i(region_valid),
         .region_frame_i(region_frame), .region_summary_i(region_summary), .region_row_i(region_row),
@@ -235,6 +272,11 @@ module rcm_axi #(
         .eol_early_i(eol_early), .eol_late_i(eol_late), .sof_early_i(sof_early), .sof_late_i(sof_late),
         .frame_skipped_i(skips), .region_dropped_i(lost_valid), .row_dropped_i(row_dropped), .frame_done_i(ended),
         .frames_i(frames), .repaired_i(repaired_q), .skipped_i(skipped_q), .dropped_i(dropped_q),
+{%- if class_address_bits.is_some() %}
+        .zone_word_i(32'd0), .zone_word_o(zone_word), .zone_word_write_o(zone_word_write),
+        .zone_address_i(zone_address_q), .zone_address_o(zone_address), .zone_address_write_o(zone_address_write),
+        .zone_control_commit_o(zone_commit_write), .zone_control_pending_i(zone_pending), .zone_control_version_i(version_q),
+{%- endif %}
         .control_enable_o(enable), .control_wait_o(waits), .control_restart_o(restart),
 {%- for port in thresholds %}
         .{= port.name =}_o({= port.name =}),

@@ -102,6 +102,10 @@ module {= module =} (
 {% for output in outputs %}
     assign {= output.0 =}_o = {= output.1 =};
 {%- endfor %}
+{%- for value in handed %}
+    assign {= value.name =}_o = wdata_i{= value.range =};
+    assign {= value.name =}_write_o = write_q && written == 10'd{= value.word =} && &wstrb_i;
+{%- endfor %}
 {%- if !has_window %}
     assign interrupt_o = {% for event in events %}{% if !loop.first %} || {% endif %}(events_{= event.name =}_q && interrupt_enable_{= event.name =}_q){% endfor %};
 {%- endif %}

@@ -160,6 +160,7 @@ impl FrameAssembler {
             ("payload", info.raw == expected.raw),
             ("presence of scores", info.has_scores == expected.has_scores),
             ("unit of time", info.ticks_per_second == expected.ticks_per_second),
+            ("version of the map", self.layout.has_possible_map(info)),
         ];
         match pairs.into_iter().find(|(_, same)| !same) {
             None => Ok(()),

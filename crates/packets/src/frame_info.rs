@@ -32,6 +32,9 @@ pub struct FrameInfo {
     pub has_scores: bool,
     /// True if this is the first frame since reset.
     pub first: bool,
+    /// The number of maps of classes that have been committed since the core was configured, modulo
+    /// 65,536, when the frame began. It is always 0 in a design without zones.
+    pub map_version: u16,
     /// The time at which the frame began, in ticks.
     pub time: u64,
 }

@@ -151,7 +151,8 @@ impl PacketHead {
     /// Returns whether the length, the row, the column and the flags are possible for the type.
     fn is_possible(self, layout: Option<&PacketLayout>) -> bool {
         match self.kind {
-            FRAME_TYPE => return self.flags <= 1 && self.words == FRAME_WORDS && self.column == 0,
+            // The column depends on the design, which is in the payload.
+            FRAME_TYPE => return self.flags <= 1 && self.words == FRAME_WORDS,
             REGISTER_TYPE => {
                 return self.flags <= 1 && self.words == REGISTER_WORDS && self.column == 0;
             }
@@ -212,7 +213,7 @@ impl Packet {
         }
         let payload = before.get(WORD_BYTES..)?;
         let packet = match (head.kind, layout) {
-            (FRAME_TYPE, _) => Self::Frame(frame(head, payload)?),
+            (FRAME_TYPE, _) => Self::Frame(frame(head, payload, layout)?),
             (ROW_TYPE, Some(layout)) => Self::Row(row(head, payload, layout)?),
             (SCORES_TYPE, Some(layout)) => Self::Scores(scores(head, payload, layout)?),
             (REGION_TYPE, Some(layout)) => Self::Region(region(head, payload, layout)?),
@@ -226,9 +227,9 @@ impl Packet {
     }
 }
 
-/// Parses the payload of a FRAME. A FRAME of another version is accepted, too, so that the reader
-/// can report the version.
-fn frame(head: PacketHead, payload: &[u8]) -> Option<FrameInfo> {
+/// Parses the payload of a FRAME. A FRAME of another version or design is accepted, too, so that the
+/// reader can report it.
+fn frame(head: PacketHead, payload: &[u8], layout: Option<&PacketLayout>) -> Option<FrameInfo> {
     if !payload.starts_with(&MAGIC) {
         return None;
     }
@@ -250,9 +251,11 @@ fn frame(head: PacketHead, payload: &[u8]) -> Option<FrameInfo> {
         raw: rest >> 28 & 1 == 1,
         has_scores: rest >> 29 & 1 == 1,
         first: head.flags == 1,
+        map_version: head.column,
         time,
     };
-    (info.ticks_per_second > 0 && rest >> 30 & 3 == 0).then_some(info)
+    let has_possible_map = layout.is_none_or(|layout| layout.has_possible_map(&info));
+    (info.ticks_per_second > 0 && rest >> 30 & 3 == 0 && has_possible_map).then_some(info)
 }
 
 fn row(head: PacketHead, payload: &[u8], layout: &PacketLayout) -> Option<RowPacket> {

@@ -31,6 +31,8 @@ pub struct PacketLayout {
     score_max: Vec<u64>,
     /// The radius of the search of `flow`; `None` for a design without `flow`.
     flow_radius: Option<u32>,
+    /// True if the regions have classes, so that FRAMEs carry the version of their map.
+    has_zones: bool,
 }
 
 impl PacketLayout {
@@ -88,14 +90,17 @@ impl PacketLayout {
             },
             has_scores,
             first: false,
+            map_version: 0,
             time: 0,
         };
         let score_max = camera.features().iter().map(|feature| feature.score_max());
         let flow_radius = camera.displacement_feature().and_then(SpatialFeature::radius);
-        Ok(Self { info, score_max: score_max.collect(), flow_radius })
+        let (score_max, has_zones) = (score_max.collect(), camera.zones().is_some());
+        Ok(Self { info, score_max, flow_radius, has_zones })
     }
 
-    /// Returns the content of every FRAME of the design, in which `time` is 0 and `first` is false.
+    /// Returns the content of every FRAME of the design, in which `time` and `map_version` are 0 and
+    /// `first` is false.
     #[must_use]
     pub fn info(&self) -> &FrameInfo {
         &self.info
@@ -128,6 +133,23 @@ impl PacketLayout {
     #[must_use]
     pub fn has_flow(&self) -> bool {
         self.flow_radius.is_some()
+    }
+
+    /// Returns whether FRAMEs carry the version of a map of classes. In other designs it is always 0.
+    #[must_use]
+    pub fn has_zones(&self) -> bool {
+        self.has_zones
+    }
+
+    /// Returns the largest version of a map of classes that a FRAME of the design can have.
+    pub(crate) fn map_version_max(&self) -> u16 {
+        if self.has_zones { u16::MAX } else { 0 }
+    }
+
+    /// Returns false if a FRAME is one of this design and has a version of a map of classes that the
+    /// design cannot have. Another design may have zones.
+    pub(crate) fn has_possible_map(&self, info: &FrameInfo) -> bool {
+        info.fingerprint != self.info.fingerprint || info.map_version <= self.map_version_max()
     }
 
     /// Returns the largest number of a displacement; `None` for a design without `flow`.

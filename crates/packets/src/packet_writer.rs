@@ -14,12 +14,37 @@ use crate::packet_layout::{
 use crate::word_fields::{checked_field, checked_u16};
 use crate::{EndPacket, PacketError, RegionDecision, RegionFlags, RegisterPacket};
 
-/// Appends the FRAME of frame `number`. The time is in ticks.
-pub fn append_frame(
+/// Appends the FRAME of frame `number`. The time is in ticks. In a design with zones, the frame uses
+/// the map of classes of the configuration, which has version 0.
+pub fn append_frame(out: &mut Vec<u8>, layout: &PacketLayout, number: u32, start: (u64, bool)) {
+    append_checked_frame(out, layout, number, start, 0);
+}
+
+/// Appends the FRAME of frame `number`, which uses the map of classes with this version. The time is
+/// in ticks.
+///
+/// # Errors
+/// Fails if the version is not 0 in a design without zones.
+pub fn append_frame_of_map(
+    out: &mut Vec<u8>,
+    layout: &PacketLayout,
+    number: u32,
+    start: (u64, bool),
+    map_version: u16,
+) -> Result<(), PacketError> {
+    let most = layout.map_version_max().into();
+    checked_field("version of the map", map_version.into(), 0..=most)?;
+    append_checked_frame(out, layout, number, start, map_version);
+    Ok(())
+}
+
+/// Appends a FRAME with a version of the map that the design can have.
+fn append_checked_frame(
     out: &mut Vec<u8>,
     layout: &PacketLayout,
     number: u32,
     (time, first): (u64, bool),
+    map_version: u16,
 ) {
     let info = layout.info();
     let size = u64::from(info.ticks_per_second)
@@ -33,7 +58,8 @@ pub fn append_frame(
         | u64::from(info.has_scores) << 29
         | u64::from(info.columns) << 32
         | u64::from(info.rows) << 48;
-    let head = PacketFields { kind: FRAME_TYPE, flags: first.into(), row: info.version, column: 0 };
+    let (flags, row) = (first.into(), info.version);
+    let head = PacketFields { kind: FRAME_TYPE, flags, row, column: map_version };
     append_packet(out, head, FRAME_WORDS, number, |out| {
         out.extend(MAGIC);
         out.extend([info.fingerprint, time, size, rest].into_iter().flat_map(u64::to_le_bytes));

@@ -48,7 +48,7 @@ pub use options::{
 };
 pub use packet_file::write_packets;
 pub use pixel_camera::{PixelCamera, PixelEvent};
-pub(crate) use recorder::{DISK_FULL, INTERRUPTED, RunRecorder};
+pub(crate) use recorder::{DISK_FULL, FrameContent, INTERRUPTED, RunRecorder};
 pub use summary::{GridSize, RunSummary, ValueRange};
 
 use std::io;

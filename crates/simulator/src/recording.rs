@@ -14,7 +14,7 @@ use foveate_staging::StagedFolder;
 use foveate_toolchain::Interrupt;
 
 use crate::losses::LossTable;
-use crate::output::{INTERRUPTED, RunRecorder};
+use crate::output::{FrameContent, INTERRUPTED, RunRecorder};
 use crate::simulation::{SIMULATION_FOLDER, disk_full_problem};
 use crate::stream::{PacketStream, ShownFrame, StreamItem};
 use crate::{RunOptions, RunSummary, SimulatorError};
@@ -221,19 +221,21 @@ impl RecordingWriter<'_> {
                     return Err(SimulatorError::NotInStream { output: "heat maps", why });
                 }
                 let form = SetForm::default();
+                let has_map_versions = design.zones().is_some();
                 let created = RunRecorder::create(
                     self.folder,
                     design,
                     &form,
                     self.options,
-                    has_scores,
+                    FrameContent { has_scores, has_map_versions },
                     &self.interrupt,
                 )?;
                 none.insert(created)
             }
         };
-        let ShownFrame { number, screen: frame, outcome, .. } = frame;
+        let ShownFrame { number, map_version, screen: frame, outcome, .. } = frame;
         let source = SourceFrame { name: number.to_string(), time_us, label: None, frame };
-        recorder.push_received(&source, &outcome, (design, source.frame.borrowed_pixels()))
+        let screen = source.frame.borrowed_pixels();
+        recorder.push_received(&source, map_version, &outcome, (design, screen))
     }
 }

@@ -9,7 +9,7 @@ use foveate_footage::SourceKind;
 use foveate_playback::{ClipPlayer, PlaybackError, RunHooks, RunMonitor};
 use foveate_staging::{FolderKind, StagedFolder};
 
-use crate::output::{DISK_FULL, INTERRUPTED, RunRecorder};
+use crate::output::{DISK_FULL, FrameContent, INTERRUPTED, RunRecorder};
 use crate::{RunOptions, RunSummary, SimulatorError};
 
 /// A design and the frames that it takes.
@@ -75,12 +75,14 @@ impl Simulation {
         hooks: &dyn RunHooks,
     ) -> Result<RunSummary, SimulatorError> {
         let folder = staging.folder();
+        // The map of classes does not change, so that no table has its version.
+        let content = FrameContent { has_scores: true, has_map_versions: false };
         let mut recorder = RunRecorder::create(
             folder,
             &self.design,
             self.player.form(),
             options,
-            true,
+            content,
             &hooks.interrupt(),
         )?;
         let problem = match (self.run_frames(&mut recorder, hooks), recorder.frames()) {

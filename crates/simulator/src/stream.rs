@@ -38,6 +38,9 @@ pub struct ShownFrame {
     /// The time when the frame began, in microseconds since the first frame, or `None` if its FRAME
     /// packet is missing. Times never decrease.
     pub time_us: Option<u64>,
+    /// The version of the map of classes that the frame used, modulo 65,536. It is `None` in a
+    /// design without zones, or if the FRAME packet is missing.
+    pub map_version: Option<u16>,
     /// The screen after the frame.
     pub screen: ByteFrame,
     /// The decisions and actions of all regions. Unknown values are 0.
@@ -206,6 +209,8 @@ impl StreamDecoder {
         if frame.info.as_ref().is_some_and(|info| info.first) {
             self.receiver.reset();
         }
+        let info = frame.info.as_ref().filter(|_| self.assembler.layout().has_zones());
+        let map_version = info.map(|info| info.map_version);
         for (region, content) in (0..).zip(&frame.contents) {
             match content {
                 Some(RegionContent::Pixels(pixels)) => self.receiver.take_pixels(region, pixels),
@@ -229,7 +234,7 @@ impl StreamDecoder {
             skipped: 0,
         };
         let screen = copy_of_screen(&self.design, self.receiver.rendered())?;
-        Ok(ShownFrame { number: frame.number, time_us, screen, outcome })
+        Ok(ShownFrame { number: frame.number, time_us, map_version, screen, outcome })
     }
 }
 

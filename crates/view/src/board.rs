@@ -219,6 +219,7 @@ fn may_change(field: &RegisterField) -> bool {
         FieldKind::Status
         | FieldKind::Control { .. }
         | FieldKind::Threshold { .. }
+        | FieldKind::Handed
         | FieldKind::Event => true,
         FieldKind::Constant(_) | FieldKind::Command => false,
     }
@@ -228,6 +229,7 @@ fn may_be_written(field: &RegisterField) -> bool {
     match field.kind {
         FieldKind::Threshold { .. }
         | FieldKind::Control { .. }
+        | FieldKind::Handed
         | FieldKind::Command
         | FieldKind::Event => true,
         FieldKind::Constant(_) | FieldKind::Status => false,
@@ -240,6 +242,7 @@ fn kind_name(kind: &FieldKind) -> &'static str {
         FieldKind::Status => "status",
         FieldKind::Control { .. } => "control",
         FieldKind::Threshold { .. } => "threshold",
+        FieldKind::Handed => "handed",
         FieldKind::Command => "command",
         FieldKind::Event => "event",
     }

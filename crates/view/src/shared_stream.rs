@@ -49,6 +49,9 @@ struct FrameFigures {
     #[serde(skip)]
     change: u64,
     number: u32,
+    /// The version of the map of classes, in a design with zones.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    map_version: Option<u16>,
     active: usize,
     bytes: u64,
     /// The time at which the frame was shown, in milliseconds since the start.
@@ -237,6 +240,7 @@ impl SharedStream {
         state.history.push_front(FrameFigures {
             change,
             number: frame.number,
+            map_version: frame.map_version,
             active,
             bytes,
             shown_ms,

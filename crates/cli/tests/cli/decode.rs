@@ -2,6 +2,7 @@
 //! Tests of `simulate --packets` and `decode`, end to end.
 
 use std::fs;
+use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
@@ -70,6 +71,105 @@ fn displacements_come_back_as_they_were_sent() {
         serde_json::from_slice::<Value>(&bytes).unwrap()["bandwidth"].clone()
     };
     assert_eq!(sums("sent"), sums("seen"));
+}
+
+/// Returns a stream of `simulate` in which each FRAME has one of these versions of the map, as from
+/// a core on AXI.
+fn with_map_versions(stream: &[u8], versions: &[u16]) -> Vec<u8> {
+    let (mut forged, mut at, mut versions) = (stream.to_vec(), 0, versions.iter());
+    while at < forged.len() {
+        let end = at + 8 * usize::from(u16::from_le_bytes([forged[at + 2], forged[at + 3]]));
+        let packet = &mut forged[at..end];
+        if packet[1] & 15 == 1 {
+            packet[6..8].copy_from_slice(&versions.next().unwrap().to_le_bytes());
+            let (checked, check) = packet.split_at_mut(52);
+            let mut crc = flate2::Crc::new();
+            crc.update(checked);
+            check.copy_from_slice(&crc.sum().to_le_bytes());
+        }
+        at = end;
+    }
+    assert_eq!(versions.next(), None);
+    forged
+}
+
+/// Returns the heading of a table of frames, and the last column.
+fn last_column(folder: &Path) -> (String, Vec<String>) {
+    let table = fs::read_to_string(folder.join("frames.csv")).unwrap();
+    let last = |line: &str| line.rsplit(',').next().unwrap().to_owned();
+    (table.lines().next().unwrap().to_owned(), table.lines().skip(1).map(last).collect())
+}
+
+#[test]
+fn the_versions_of_the_map_are_listed_with_the_frames() {
+    let dir = tempfile::tempdir().unwrap();
+    let zones = ["--set", "zones={keen={temporal={level=3}}}"];
+    run_successfully(dir.path(), &[&SENDING_COMMAND[..], &["--packets"], &zones].concat());
+    let (sent, _) = last_column(&dir.path().join("sent"));
+    assert!(!sent.contains("map_version"), "{sent}");
+    let decode = ["decode", "packets.bin", "-o", "seen", "--force", "--preset", "steady"];
+    let stream = fs::read(dir.path().join("sent/packets.bin")).unwrap();
+    for versions in [[0; 4], [0, 1, 1, 256], [7, 65_534, 65_535, 0]] {
+        // The map of `simulate` does not change, so its stream has version 0 everywhere.
+        let forged = with_map_versions(&stream, &versions);
+        assert_eq!(forged == stream, versions == [0; 4]);
+        fs::write(dir.path().join("packets.bin"), forged).unwrap();
+        run_successfully(dir.path(), &[&decode[..], &zones].concat());
+        let (heading, column) = last_column(&dir.path().join("seen"));
+        assert_eq!(heading, format!("{sent},map_version"));
+        assert_eq!(column, versions.map(|version| version.to_string()));
+        for name in ["active.npy", "rendered/000003.png"] {
+            let of = |folder: &str| fs::read(dir.path().join(folder).join(name)).unwrap();
+            assert!(of("sent") == of("seen"), "{name}");
+        }
+    }
+}
+
+#[test]
+fn a_version_of_the_map_is_damage_without_zones() {
+    let dir = tempfile::tempdir().unwrap();
+    run_successfully(dir.path(), &[&SENDING_COMMAND[..], &["--packets"]].concat());
+    let decode = ["decode", "packets.bin", "-o", "seen", "--force", "--preset", "steady"];
+    let stream = fs::read(dir.path().join("sent/packets.bin")).unwrap();
+    let write = |versions| {
+        fs::write(dir.path().join("packets.bin"), with_map_versions(&stream, versions)).unwrap();
+    };
+    write(&[0, 0, 1, 0]);
+    let outcome = run_in(dir.path(), &decode);
+    assert_eq!(outcome.code, 1, "{}", outcome.stderr);
+    for part in ["56 bytes", "frame 2: its FRAME packet is missing"] {
+        assert!(outcome.stderr.contains(part), "{part}: {}", outcome.stderr);
+    }
+    let (heading, rows) = last_column(&dir.path().join("seen"));
+    assert_eq!((heading, rows.len()), (last_column(&dir.path().join("sent")).0, 3));
+    // The first FRAME tells that it comes from this design.
+    write(&[1, 0, 0, 0]);
+    expect_failure(dir.path(), 2, &decode, &["not its version of the map"]);
+}
+
+/// The camera without zones learns from every FRAME with zones that another design follows.
+#[test]
+fn a_decoder_without_zones_takes_nothing_of_a_stream_with_them() {
+    let dir = tempfile::tempdir().unwrap();
+    run_successfully(dir.path(), &[&SENDING_COMMAND[..], &["--packets"]].concat());
+    let own = fs::read(dir.path().join("sent/packets.bin")).unwrap();
+    let zones = ["--packets", "--set", "zones={}", "--force"];
+    run_successfully(dir.path(), &[&SENDING_COMMAND[..], &zones].concat());
+    let other = fs::read(dir.path().join("sent/packets.bin")).unwrap();
+    for versions in [[0; 4], [3, 4, 5, 6]] {
+        let other = with_map_versions(&other, &versions);
+        fs::write(dir.path().join("packets.bin"), [&own[..], &other, &own].concat()).unwrap();
+        let decode = ["decode", "packets.bin", "-o", "seen", "--force", "--preset", "steady"];
+        let outcome = run_in(dir.path(), &decode);
+        assert_eq!(outcome.code, 1, "{}", outcome.stderr);
+        assert!(outcome.stderr.contains("is of another camera or format"), "{}", outcome.stderr);
+        let losses = fs::read_to_string(dir.path().join("seen/losses.csv")).unwrap();
+        let losses: Vec<&str> = losses.lines().skip(1).collect();
+        assert_eq!(losses, ["foreign,0,,,,", "foreign,1,,,,", "foreign,2,,,,", "foreign,3,,,,"]);
+        assert_eq!(last_column(&dir.path().join("seen")).1.len(), 8);
+        fs::write(dir.path().join("packets.bin"), other).unwrap();
+        expect_failure(dir.path(), 2, &decode, &["was sent by design"]);
+    }
 }
 
 #[cfg(unix)]

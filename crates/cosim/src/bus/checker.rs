@@ -253,13 +253,22 @@ impl<'a> SessionChecker<'a> {
         }
         self.next_frame = at + 1;
         let first = std::mem::take(&mut self.is_first) || sent.is_first;
-        let expected = FrameInfo { first, time: info.time, ..self.checker.layout.info().clone() };
+        let map_version = info.map_version;
+        let admitted: Vec<u16> = sent.maps.iter().map(|(version, _)| *version).collect();
+        let is_admitted =
+            admitted.contains(&map_version) || admitted.is_empty() && map_version == 0;
+        if !is_admitted {
+            let at = format!("version {map_version} of the map of classes, expected {admitted:?}");
+            return Err(BusMismatch::from_presence(at, false));
+        }
+        let own = self.checker.layout.info().clone();
+        let expected = FrameInfo { first, time: info.time, map_version, ..own };
         if *info != expected {
             let at = format!("what FRAME says: {info:?}, expected {expected:?}");
             return Err(BusMismatch::from_presence(at, false));
         }
         self.check_time(info.time, left)?;
-        let outcome = self.step_model(sent, first);
+        let outcome = self.step_model(sent, map_version, first);
         let regions = outcome.srs.len();
         self.open = Some(OpenFrame {
             number,
@@ -274,7 +283,12 @@ impl<'a> SessionChecker<'a> {
     }
 
     /// Advances the model by a frame that arrived, and returns its outcome.
-    fn step_model(&mut self, sent: &ExpectedFrame, first: bool) -> FunctionalOutcome {
+    fn step_model(
+        &mut self,
+        sent: &ExpectedFrame,
+        map_version: u16,
+        first: bool,
+    ) -> FunctionalOutcome {
         if first {
             self.facts.restarted += u64::from(self.agreement.frames > 0);
             self.model.reset();
@@ -284,6 +298,11 @@ impl<'a> SessionChecker<'a> {
         self.facts.behind_skipped += u64::from(std::mem::take(&mut self.has_skipped));
         if sent.camera_index != self.camera {
             (self.camera_before, self.camera) = (self.camera, sent.camera_index);
+        }
+        let mut maps = sent.maps.iter();
+        if let Some((version, map)) = maps.find(|(version, _)| *version == map_version) {
+            self.facts.maps += u64::from(*version > 0);
+            self.model.set_classes(map);
         }
         let missed = self.stale_outcomes(sent);
         let outcome = self.model.step(&sent.frame, sent.camera_index);
@@ -576,8 +595,8 @@ fn encode_packet(layout: &PacketLayout, frame: u32, packet: &Packet) -> Vec<u8> 
     // A packet that cannot be written leaves `bytes` empty.
     let _ = match packet {
         Packet::Frame(info) => {
-            packet_writer::append_frame(&mut bytes, layout, frame, (info.time, info.first));
-            Ok(())
+            let (start, version) = ((info.time, info.first), info.map_version);
+            packet_writer::append_frame_of_map(&mut bytes, layout, frame, start, version)
         }
         Packet::Row(row) => {
             packet_writer::append_row(&mut bytes, layout, frame, row.row, &row.decisions)

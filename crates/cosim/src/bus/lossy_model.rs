@@ -2,7 +2,7 @@
 //! The functional model of a core on a bus, whose thresholds change from frame to frame and whose
 //! sent regions may be lost.
 
-use foveate_design::{Camera, ReferencePolicy};
+use foveate_design::{Camera, ReferencePolicy, RegionClass};
 use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, FunctionalOutcome, RegionMemory};
 use std::collections::BTreeSet;
@@ -17,17 +17,29 @@ pub(super) struct LossyModel<'a> {
     screen: Option<Frame>,
     /// The regions of the last frame that were lost.
     lost: BTreeSet<u32>,
+    /// The map of classes, if it is not that of the configuration.
+    classes: Option<Vec<RegionClass>>,
 }
 
 impl<'a> LossyModel<'a> {
     pub(super) fn new(cameras: &'a [Camera]) -> Self {
         let model = FunctionalCamera::new(&cameras[0]);
-        Self { cameras, model, camera_index: 0, screen: None, lost: BTreeSet::new() }
+        Self { cameras, model, camera_index: 0, screen: None, lost: BTreeSet::new(), classes: None }
     }
 
-    /// Forgets every frame.
+    /// Forgets every frame. The map of classes stays.
     pub(super) fn reset(&mut self) {
+        let classes = self.classes.take();
         *self = Self::new(self.cameras);
+        if let Some(classes) = classes {
+            self.set_classes(&classes);
+        }
+    }
+
+    /// Sets the map of classes of the next frames.
+    pub(super) fn set_classes(&mut self, classes: &[RegionClass]) {
+        self.classes = Some(classes.to_vec());
+        self.model.set_classes(classes).expect("a map has a class for each region");
     }
 
     /// Marks a region of the last frame as lost. It has no `last-sent` reference until it is active
@@ -43,6 +55,14 @@ impl<'a> LossyModel<'a> {
 
     /// Returns the model in its state before the next frame, with the thresholds of `camera`.
     fn with_camera(&self, camera: &Camera) -> FunctionalCamera {
+        let mut model = self.resumed_camera(camera);
+        if let Some(classes) = &self.classes {
+            model.set_classes(classes).expect("a map has a class for each region");
+        }
+        model
+    }
+
+    fn resumed_camera(&self, camera: &Camera) -> FunctionalCamera {
         let Some(screen) = &self.screen else { return FunctionalCamera::new(camera) };
         let remembered = |region: u32| {
             let RegionMemory { reference, summary } = self.model.region_memory(region);

@@ -10,6 +10,7 @@
 
 mod bus_mismatch;
 mod checker;
+mod class_scenes;
 mod event_clears;
 mod frame_source;
 mod job;

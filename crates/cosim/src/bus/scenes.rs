@@ -52,7 +52,7 @@ impl<'a> SceneBuilder<'a> {
 
     /// Returns the scenes that every core must pass.
     pub(super) fn scenes(&mut self) -> Vec<BusScene<'a>> {
-        vec![
+        let mut scenes = vec![
             ("video", self.video()),
             ("full rate", self.full_rate()),
             ("stalls", self.stalls()),
@@ -64,11 +64,17 @@ impl<'a> SceneBuilder<'a> {
             ("registers", self.register_file()),
             ("events and their clears", self.event_clears()),
             ("thresholds", self.every_threshold()),
-        ]
+        ];
+        scenes.extend(self.class_scenes());
+        scenes
     }
 
     pub(super) fn design(&self) -> RasterDesign<'a> {
         self.design
+    }
+
+    pub(super) fn random(&mut self) -> &mut Random {
+        &mut self.random
     }
 
     pub(super) fn frame_source(&mut self) -> &mut BusFrameSource {
@@ -397,7 +403,11 @@ impl<'a> SceneBuilder<'a> {
         for _ in 0..RESET_COUNT {
             for _ in 0..4 {
                 let (read, written) = (self.random_register(), self.random_register());
-                traffic.write_bytes(written.address, self.random.up_to_u32(u32::MAX), ALL_BYTES);
+                // A map of classes stays at a reset.
+                if !written.name.starts_with("zone_") {
+                    let value = self.random.up_to_u32(u32::MAX);
+                    traffic.write_bytes(written.address, value, ALL_BYTES);
+                }
                 traffic.read_unchecked(read.address);
             }
             traffic.set_in_order(self.random.one_in(2));
@@ -450,13 +460,17 @@ impl<'a> SceneBuilder<'a> {
                 let bytes = bytes.fold(0_u32, |mask, byte| mask | 0xFF << (8 * byte));
                 let mask = match register.name.as_str() {
                     "control" | "events" | "interrupt_test" => continue,
+                    // These have scenes of their own.
+                    name if name.starts_with("zone_") => continue,
                     _ => writable_mask(register) & bytes,
                 };
                 value = (value & !mask) | (data & mask);
                 traffic.write_bytes(register.address, data, strobes);
                 traffic.read(register.address, ExpectedRead::Value(value));
             }
-            traffic.write_bytes(register.address, reset_value(register), ALL_BYTES);
+            if !register.name.starts_with("zone_") {
+                traffic.write_bytes(register.address, reset_value(register), ALL_BYTES);
+            }
             traffic.read(register.address, ExpectedRead::Value(reset_value(register)));
         }
         traffic.wait_for_accesses();
@@ -532,7 +546,7 @@ impl<'a> SceneBuilder<'a> {
 
     /// Begins traffic for a core that was reset. Its source waits when it must, with gaps that let
     /// all regions leave.
-    fn waiting_traffic(&mut self) -> Traffic<'a> {
+    pub(super) fn waiting_traffic(&mut self) -> Traffic<'a> {
         let mut traffic = Traffic::new(self.design);
         self.begin_waiting(&mut traffic);
         traffic
@@ -543,14 +557,14 @@ impl<'a> SceneBuilder<'a> {
         self.enable_waiting(traffic);
     }
 
-    fn enable_waiting(&mut self, traffic: &mut Traffic<'a>) {
+    pub(super) fn enable_waiting(&mut self, traffic: &mut Traffic<'a>) {
         traffic.set_stalls(0);
         traffic.set_gaps(self.lossless_gaps());
         traffic.write(self.address("control"), self.control_bits(&["enable", "wait"]));
     }
 
     /// Waits until all packets have left, and checks the counters and events.
-    fn end_session(&mut self, traffic: &mut Traffic<'a>, events: u32) {
+    pub(super) fn end_session(&mut self, traffic: &mut Traffic<'a>, events: u32) {
         traffic.drain();
         traffic.read(self.address("skipped"), ExpectedRead::SkippedFrames);
         traffic.read(self.address("dropped"), ExpectedRead::DroppedRegions);
@@ -616,7 +630,13 @@ impl<'a> SceneBuilder<'a> {
 
 /// Returns a frame that must be taken, with the thresholds of the design.
 pub(super) fn taken_frame(frame: Frame) -> ExpectedFrame {
-    ExpectedFrame { frame, fate: FrameFate::Taken, is_first: false, camera_index: 0 }
+    ExpectedFrame {
+        frame,
+        fate: FrameFate::Taken,
+        is_first: false,
+        camera_index: 0,
+        maps: Vec::new(),
+    }
 }
 
 /// Returns the bits of the named fields of a register, each of which has one bit.
@@ -633,7 +653,7 @@ fn reset_value(register: &Register) -> u32 {
             | FieldKind::Control { reset: own }
             | FieldKind::Threshold { reset: own } => own,
             FieldKind::Status if register.name == "tick_rate" => TICK_RATE,
-            FieldKind::Status | FieldKind::Command | FieldKind::Event => 0,
+            FieldKind::Status | FieldKind::Command | FieldKind::Event | FieldKind::Handed => 0,
         };
         value | own << field.low
     })
@@ -645,7 +665,11 @@ fn writable_mask(register: &Register) -> u32 {
         FieldKind::Control { .. } | FieldKind::Threshold { .. } => {
             mask | u32::MAX >> (u32::BITS - field.width) << field.low
         }
-        FieldKind::Constant(_) | FieldKind::Status | FieldKind::Command | FieldKind::Event => mask,
+        FieldKind::Constant(_)
+        | FieldKind::Status
+        | FieldKind::Command
+        | FieldKind::Event
+        | FieldKind::Handed => mask,
     })
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The traffic on the buses of a core, in order, with the results that it must have.
 
-use foveate_design::RasterDesign;
+use foveate_design::{RasterDesign, RegionClass};
 use foveate_frame::Frame;
 use std::fmt::Write as _;
 use std::ops::Range;
@@ -33,6 +33,9 @@ pub(super) struct ExpectedFrame {
     pub(super) is_first: bool,
     /// The index of the camera whose thresholds hold for the frame.
     pub(super) camera_index: usize,
+    /// The maps of classes that the frame may use, each with its version. Without any, the frame
+    /// uses the map of the configuration, with version 0.
+    pub(super) maps: Vec<(u16, Vec<RegionClass>)>,
 }
 
 /// The expected value of a register.

@@ -44,6 +44,8 @@ pub(crate) struct BusSituationCounts {
     pub(crate) cut: u64,
     /// The number of frames whose decisions were compared behind a skipped frame.
     pub(crate) behind_skipped: u64,
+    /// The number of frames whose map of classes was written.
+    pub(crate) maps: u64,
 }
 
 /// A situation of a core on AXI.
@@ -89,6 +91,11 @@ const SITUATIONS: &[BusSituation] = &[
         name: "a reset comes within a packet",
         is_possible: always,
         count: |facts| facts.cut,
+    },
+    BusSituation {
+        name: "a frame uses a map of classes that was written",
+        is_possible: |design| design.zones().is_some(),
+        count: |facts| facts.maps,
     },
 ];
 

@@ -41,7 +41,6 @@ impl RasterHardware {
         let pixels = pixels_per_clock.unwrap_or(WORD_PIXELS[0]);
         check_word(pixels, camera.region_size())?;
         check_interface(own)?;
-        check_zones(own, camera)?;
         check_reference(own, camera.temporal().reference)?;
         if let Some(periphery) = camera.periphery() {
             check_summaries(own, pixels, periphery)?;
@@ -109,19 +108,6 @@ fn check_interface(own: &RasterConfig) -> Result<(), ConfigError> {
             remedy: "its packets carry the pixels of active regions; leave the key out, or use \
                      interface = \"ports\""
                 .to_owned(),
-        }),
-        InterfaceKind::Ports | InterfaceKind::Axi => Ok(()),
-    }
-}
-
-/// Refuses zones on the AXI interface.
-fn check_zones(own: &RasterConfig, camera: &Camera) -> Result<(), ConfigError> {
-    match own.interface.unwrap_or_default() {
-        InterfaceKind::Axi if camera.zones().is_some() => Err(ConfigError::Combination {
-            key: "zones".to_owned(),
-            value: "{...}".to_owned(),
-            with: format!("interface = \"{}\"", InterfaceKind::Axi),
-            remedy: "leave the table [zones] out, or use interface = \"ports\"".to_owned(),
         }),
         InterfaceKind::Ports | InterfaceKind::Axi => Ok(()),
     }

@@ -49,6 +49,8 @@ pub(super) struct AxiTop {
     raw: u32,
     fingerprint: String,
     syncs: bool,
+    /// The bits of the number of a word of the map of classes, in a design with zones.
+    class_address_bits: Option<u32>,
     thresholds: Vec<Port>,
     /// The outputs of the array that the top does not use.
     unused: Vec<Port>,
@@ -142,6 +144,7 @@ pub(super) fn view(design: RasterDesign<'_>) -> AxiTop {
         raw: raw_flag(&design),
         fingerprint: format!("{:016x}", fingerprint_number(&design)),
         syncs: design.has_frame_sync(),
+        class_address_bits: design.zones().map(|_| design.class_address_bits()),
         thresholds: thresholds(&design).into_iter().map(port_without_suffix).collect(),
         unused: ports
             .iter()
@@ -205,6 +208,11 @@ fn array_signal(design: RasterDesign<'_>, port: &Port) -> String {
         PortRole::ForwardSummary => "forward_summary",
         PortRole::LostValid => "lost_valid",
         PortRole::LostFrame => "lost_frame",
+        PortRole::ClassWrite => "zone_write",
+        PortRole::ClassAddress => "zone_address_q",
+        PortRole::ClassWord => "zone_word",
+        PortRole::ClassCommit => "zone_commit",
+        PortRole::ClassPending => "array_pending",
         // Decisions come in the order of the regions, so their numbers are not needed. Losses are
         // counted in this module. Scores and the other outputs are not sent.
         PortRole::Region

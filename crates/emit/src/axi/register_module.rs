@@ -22,6 +22,7 @@ pub(super) struct RegisterModule {
     commands: Vec<String>,
     writes: Vec<ByteWrite>,
     events: Vec<EventBit>,
+    handed: Vec<HandedValue>,
     reads: Vec<(u32, String)>,
     outputs: Vec<(String, String)>,
 }
@@ -42,6 +43,13 @@ struct ByteWrite {
     word: u32,
     byte: u32,
     target: String,
+    range: String,
+}
+
+/// A value that the core takes when it is written.
+struct HandedValue {
+    name: String,
+    word: u32,
     range: String,
 }
 
@@ -69,6 +77,7 @@ pub(super) fn register_module(
         commands: Vec::new(),
         writes: Vec::new(),
         events: Vec::new(),
+        handed: Vec::new(),
         reads: Vec::new(),
         outputs: Vec::new(),
     };
@@ -126,6 +135,17 @@ impl RegisterModule {
                 if !is_test {
                     self.add_output(&name, field);
                 }
+            }
+            FieldKind::Handed => {
+                self.add_port("input ", field.width, &format!("{name}_i"), &field.doc);
+                self.add_port("output", field.width, &format!("{name}_o"), &field.doc);
+                let doc = format!("{name}_o is written");
+                self.add_port("output", 1, &format!("{name}_write_o"), &doc);
+                self.handed.push(HandedValue {
+                    name,
+                    word: register.address / 4,
+                    range: format!("[{}:{}]", field.low + field.width - 1, field.low),
+                });
             }
             FieldKind::Event => {
                 self.add_state(name, 1, 0);
@@ -201,7 +221,7 @@ fn read_value(register: &Register) -> String {
         let name = signal_name(register, field);
         parts.push(match field.kind {
             FieldKind::Constant(value) => format!("{}'d{value}", field.width),
-            FieldKind::Status => format!("{name}_i"),
+            FieldKind::Status | FieldKind::Handed => format!("{name}_i"),
             FieldKind::Control { .. } | FieldKind::Threshold { .. } | FieldKind::Event => {
                 format!("{name}_q")
             }

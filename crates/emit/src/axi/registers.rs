@@ -4,7 +4,7 @@
 
 use crate::thresholds::threshold_value;
 use foveate_camera::{IrrelevantRendering, Payload};
-use foveate_design::{CoreInterface, Design, Port, RasterDesign};
+use foveate_design::{CLASS_WORD_BITS, CoreInterface, Design, Port, RasterDesign};
 
 /// The number of bits of a register.
 pub(crate) const REGISTER_BITS: u32 = 32;
@@ -30,6 +30,9 @@ pub enum FieldKind {
         /// The value after a reset.
         reset: u32,
     },
+    /// The core takes every written value if all strobes are 1. The field reads the value that the
+    /// core drives.
+    Handed,
     /// Writing 1 triggers an action once; the field reads as 0.
     Command,
     /// The field becomes 1 when the event happens, and 0 when 1 is written to it.
@@ -42,7 +45,7 @@ impl FieldKind {
     pub fn access(&self) -> &'static str {
         match self {
             Self::Constant(_) | Self::Status => "read",
-            Self::Control { .. } | Self::Threshold { .. } => "read, write",
+            Self::Control { .. } | Self::Threshold { .. } | Self::Handed => "read, write",
             Self::Command => "write 1",
             Self::Event => "read, write 1 to clear",
         }
@@ -55,7 +58,7 @@ impl FieldKind {
             Self::Constant(value)
             | Self::Control { reset: value }
             | Self::Threshold { reset: value } => Some(value),
-            Self::Command | Self::Event => Some(0),
+            Self::Command | Self::Event | Self::Handed => Some(0),
             Self::Status => None,
         }
     }
@@ -261,8 +264,54 @@ pub fn axi_registers(design: RasterDesign<'_>) -> Vec<Register> {
     ] {
         add(address, name, doc, status(16, "modulo 2^16"));
     }
+    list.extend(design.zones().map(|_| class_registers(&design)).into_iter().flatten());
     list.extend(threshold_registers(&design));
     list
+}
+
+/// Returns the registers of the memory of classes: a window of words whose address advances, and the
+/// commits.
+fn class_registers(design: &Design) -> [Register; 3] {
+    let register = |address, name: &str, doc: &str, fields| Register {
+        name: name.to_owned(),
+        address,
+        fields,
+        doc: doc.to_owned(),
+    };
+    let word = "16 classes of 2 bits: 0 normal, 1 off, 2 keen, 3 always; reads as 0";
+    let address = "a write to `zone_word` advances it, and a commit sets it to 0";
+    let pending =
+        "a committed map waits for the end of a frame; `zone_word` and `commit` have no effect";
+    [
+        register(
+            0x044,
+            "zone_word",
+            "writes a word of the map of classes",
+            vec![field("value", 0, CLASS_WORD_BITS, FieldKind::Handed, word)],
+        ),
+        register(
+            0x048,
+            "zone_address",
+            "number of the word that is written next",
+            vec![field("value", 0, design.class_address_bits(), FieldKind::Handed, address)],
+        ),
+        register(
+            0x04C,
+            "zone_control",
+            "the map of classes",
+            vec![
+                field(
+                    "commit",
+                    0,
+                    1,
+                    FieldKind::Command,
+                    "frames use the map that has been written",
+                ),
+                field("pending", 1, 1, FieldKind::Status, pending),
+                field("version", 16, 16, FieldKind::Status, "number of commits, modulo 2^16"),
+            ],
+        ),
+    ]
 }
 
 /// Returns the registers of the thresholds: one for each, or two for a threshold wider than a

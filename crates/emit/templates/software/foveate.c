@@ -24,6 +24,7 @@ const char *foveate_text(foveate_status status) {
     case FOVEATE_OTHER_VERSION: return "the registers of this core have another version than this driver";
     case FOVEATE_OTHER_DESIGN: return "this core has another design than is expected: its fingerprint differs";
     case FOVEATE_TOO_LARGE: return "a value has more bits than its register";
+    case FOVEATE_BUSY: return "a map of classes still waits for the end of a frame";
     }
     return "not a status";
 }
@@ -101,6 +102,33 @@ foveate_status foveate_set(const foveate_core *core, const foveate_threshold *th
     if (count > 1) put(core, FOVEATE_CONTROL, before);
     return FOVEATE_OK;
 }
+
+#ifdef FOVEATE_ZONE_WORD
+foveate_status foveate_set_classes(const foveate_core *core, const uint8_t *classes) {
+    const size_t regions = (size_t)core->design.columns * core->design.rows, per_word = 16;
+    for (size_t at = 0; at < regions; ++at)
+        if (classes[at] > FOVEATE_ALWAYS) return FOVEATE_TOO_LARGE;
+    if (FIELD(get(core, FOVEATE_ZONE_CONTROL), ZONE_CONTROL_PENDING) != 0) return FOVEATE_BUSY;
+    put(core, FOVEATE_ZONE_ADDRESS, 0);
+    for (size_t first = 0; first < regions; first += per_word) {
+        uint32_t word = 0;
+        for (size_t at = first; at < regions && at < first + per_word; ++at)
+            word |= (uint32_t)classes[at] << 2 * (at - first);
+        put(core, FOVEATE_ZONE_WORD, word);
+    }
+    put(core, FOVEATE_ZONE_CONTROL, FOVEATE_ZONE_CONTROL_COMMIT_MASK);
+    return FOVEATE_OK;
+}
+
+uint16_t foveate_map_version(const foveate_core *core) {
+    return (uint16_t)FIELD(get(core, FOVEATE_ZONE_CONTROL), ZONE_CONTROL_VERSION);
+}
+
+/* FRAME packets have the version of a map in place of a column. */
+#define HAS_MAPS true
+#else
+#define HAS_MAPS false
+#endif
 
 uint32_t foveate_events(const foveate_core *core) {
     return get(core, FOVEATE_EVENTS);
@@ -191,7 +219,7 @@ static size_t length(const foveate_design *design, const uint8_t *head) {
     switch (type) {
     case FOVEATE_PACKET_FRAME:
         carried = 5;
-        right = flags <= FIRST && column == 0;
+        right = flags <= FIRST && (HAS_MAPS || column == 0);
         break;
     case FOVEATE_PACKET_ROW:
         carried = words((design->columns * decision_bits(design) + 7) / 8);
@@ -232,6 +260,7 @@ static void read_packet(foveate_packet *packet, const uint8_t *bytes, size_t siz
     case FOVEATE_PACKET_FRAME:
         packet->version = u16(bytes + 4);
         packet->first = (flags & FIRST) != 0;
+        packet->map_version = u16(bytes + 6);
         packet->fingerprint = u64(bytes + 2 * WORD);
         packet->time = u64(bytes + 3 * WORD);
         break;

@@ -43,7 +43,8 @@ typedef enum {
     FOVEATE_NO_CORE,       /* `identity` has another value: the address is wrong, or the core has no clock */
     FOVEATE_OTHER_VERSION, /* the core has another version of registers than this driver */
     FOVEATE_OTHER_DESIGN,  /* the core has another fingerprint than the expected one */
-    FOVEATE_TOO_LARGE      /* a value has more bits than its register; nothing was written */
+    FOVEATE_TOO_LARGE,     /* a value has more bits than its register; nothing was written */
+    FOVEATE_BUSY           /* a map of classes still waits for the end of a frame; nothing was written */
 } foveate_status;
 
 /* Returns the text of a status, in English. */
@@ -103,6 +104,16 @@ typedef struct {
  * comes in these few clocks is left out. */
 foveate_status foveate_set(const foveate_core *core, const foveate_threshold *thresholds, size_t count);
 
+#ifdef FOVEATE_ZONE_WORD
+/* The classes of regions. */
+enum { FOVEATE_NORMAL = 0, FOVEATE_OFF = 1, FOVEATE_KEEN = 2, FOVEATE_ALWAYS = 3 };
+
+/* Writes a map with a class for each region, row by row, and commits it: the next frame uses it. The second function returns the
+ * version of the map that was committed last, which the FRAME packets of frames with this map have. */
+foveate_status foveate_set_classes(const foveate_core *core, const uint8_t *classes);
+uint16_t foveate_map_version(const foveate_core *core);
+#endif
+
 /* Returns, or clears, the events since they were cleared last: bits as FOVEATE_EVENTS_..._MASK. */
 uint32_t foveate_events(const foveate_core *core);
 void foveate_clear(const foveate_core *core, uint32_t events);
@@ -130,6 +141,7 @@ typedef struct {
     bool summary;         /* REGION: means in place of pixels */
     uint16_t row, column; /* row and column of regions; ROW has a row, REGION both */
     uint32_t frame;       /* number of the packet's frame */
+    uint16_t map_version; /* FRAME: version of the map of classes that the frame uses; 0 without zones */
     uint64_t fingerprint; /* FRAME: fingerprint of the design */
     uint64_t time;        /* FRAME: time at which the frame began, in ticks */
     uint32_t regions;     /* END: number of REGION packets of the frame */

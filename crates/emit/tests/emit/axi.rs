@@ -60,7 +60,10 @@ fn registers_and_fields_have_places_and_names_of_their_own() {
                     FieldKind::Constant(value)
                     | FieldKind::Control { reset: value }
                     | FieldKind::Threshold { reset: value } => assert!(fits(value), "{register:?}"),
-                    FieldKind::Status | FieldKind::Command | FieldKind::Event => {}
+                    FieldKind::Status
+                    | FieldKind::Command
+                    | FieldKind::Event
+                    | FieldKind::Handed => {}
                 }
             }
             assert!(end <= 32, "{register:?}");

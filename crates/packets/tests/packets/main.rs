@@ -10,3 +10,4 @@ mod flow;
 mod golden;
 mod register;
 mod stream;
+mod zones;

@@ -21,8 +21,9 @@ pub(crate) struct TestStream {
     pub(crate) frames: Vec<Range<usize>>,
 }
 
-/// Makes a stream of `count` frames with random decisions and pixels, and with displacements in half
-/// of all streams. REGION packets come before or after their ROW.
+/// Makes a stream of `count` frames with random decisions and pixels. Half of all streams have
+/// displacements, and half have versions of a map of classes. REGION packets come before or after
+/// their ROW.
 pub(crate) fn random_stream(rng: &mut Rng, count: u32) -> TestStream {
     let (width, height, size) = (rng.u32(4..40), rng.u32(4..30), rng.u32(2..9));
     let (bits, mean) = (rng.u32(1..=16), rng.bool());
@@ -32,24 +33,29 @@ pub(crate) fn random_stream(rng: &mut Rng, count: u32) -> TestStream {
         Some(radius) => (format!(",{{feature='flow',radius={radius}}}"), "serial"),
         None => (String::new(), "pipelined"),
     };
+    let zones = if rng.bool() { "zones={}\n" } else { "" };
     // The lanes of a serial array have regions of at least 4x4 pixels.
     let size = if radius.is_some() { size.max(4) } else { size };
     let design = design(&format!(
         "frame={{width={width},height={height},pixel_bits={bits}}}\nregion.size={size}\ntemporal.min_count=1\n\
          spatial=[{{feature='mad',min_score=0}}{flow}]\nrender.irrelevant='{irrelevant}'\n\
-         hardware.organization='{organization}'\n"
+         hardware.organization='{organization}'\n{zones}"
     ));
     let numbers = design.features().len() + 1;
     let layout = PacketLayout::new(&design, rng.bool(), 1_000_000).unwrap();
     let (mut bytes, mut frames) = (Vec::new(), Vec::new());
     for number in 0..count {
         let start = bytes.len();
-        packet_writer::append_frame(
+        let start_of_frame = (u64::from(number) * 40_000, number == 0);
+        let map_version = if layout.has_zones() { rng.u16(..) } else { 0 };
+        packet_writer::append_frame_of_map(
             &mut bytes,
             &layout,
             number,
-            (u64::from(number) * 40_000, number == 0),
-        );
+            start_of_frame,
+            map_version,
+        )
+        .unwrap();
         let mut regions_sent = 0;
         for row in 0..layout.rows() {
             let decision = |_| {

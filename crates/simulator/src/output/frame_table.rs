@@ -21,6 +21,8 @@ pub(super) struct FrameRow<'a> {
     pub(super) trs: u64,
     pub(super) active: u64,
     pub(super) sent: SentCounts,
+    /// The version of the map of classes, in a table with such a column.
+    pub(super) map_version: Option<u16>,
 }
 
 /// The open file.
@@ -28,23 +30,34 @@ pub(super) struct FrameTable {
     csv: CsvFile,
     /// True if irrelevant regions send summaries, so that the table has a column for them.
     has_summaries: bool,
+    /// True if the table has a column for the versions of the maps of classes.
+    has_map_versions: bool,
 }
 
 impl FrameTable {
-    pub(super) fn create(path: &Path, camera: &Camera) -> Result<Self, SimulatorError> {
+    pub(super) fn create(
+        path: &Path,
+        camera: &Camera,
+        has_map_versions: bool,
+    ) -> Result<Self, SimulatorError> {
         let has_summaries = camera.periphery().is_some();
         let heading =
             "frame,t_us,name,label,srs_regions,trs_regions,active_regions,pixels_forwarded";
-        let more = if has_summaries { ",summaries_sent" } else { "" };
-        Ok(Self { csv: CsvFile::create(path, &format!("{heading}{more}"))?, has_summaries })
+        let summaries = if has_summaries { ",summaries_sent" } else { "" };
+        let maps = if has_map_versions { ",map_version" } else { "" };
+        let csv = CsvFile::create(path, &format!("{heading}{summaries}{maps}"))?;
+        Ok(Self { csv, has_summaries, has_map_versions })
     }
 
     pub(super) fn push(&mut self, row: &FrameRow<'_>) {
-        let FrameRow { frame, time_us, name, label, srs, trs, active, sent } = row;
+        let FrameRow { frame, time_us, name, label, srs, trs, active, sent, map_version } = row;
         let (name, label) = (escape_name(name), escape_name(label.unwrap_or_default()));
         let mut counts = format!("{srs},{trs},{active},{}", sent.pixels);
         if self.has_summaries {
             counts = format!("{counts},{}", sent.summaries);
+        }
+        if self.has_map_versions {
+            counts = format!("{counts},{}", map_version.unwrap_or_default());
         }
         self.csv.line([format!("{frame},{time_us},{name},{label},{counts}")]);
     }

@@ -37,6 +37,16 @@ const BUFFER_BYTES: u64 = 1 << 17;
 /// group of a Parquet file.
 const MIN_RESERVE_BYTES: u64 = 1 << 20;
 
+/// The content of frames that not every run has.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct FrameContent {
+    /// True if the scores of the regions are known.
+    pub(crate) has_scores: bool,
+    /// True if the versions of the maps of classes are known, as in a recording of a design with
+    /// zones.
+    pub(crate) has_map_versions: bool,
+}
+
 /// The open files of a run.
 pub(crate) struct RunRecorder {
     design: Design,
@@ -60,9 +70,10 @@ impl RunRecorder {
         design: &Design,
         form: &SetForm,
         options: &RunOptions,
-        has_scores: bool,
+        content: FrameContent,
         interrupt: &Interrupt,
     ) -> Result<Self, SimulatorError> {
+        let FrameContent { has_scores, has_map_versions } = content;
         let arrays = ArraySink::create(folder, design, has_scores)?;
         let mut sinks: Vec<Box<dyn FrameSink>> = vec![Box::new(arrays)];
         sinks.append(&mut event_files::event_sinks(folder, design, options.events, has_scores)?);
@@ -91,7 +102,7 @@ impl RunRecorder {
                 )?));
             }
         }
-        let table = FrameTable::create(&folder.join("frames.csv"), design)?;
+        let table = FrameTable::create(&folder.join("frames.csv"), design, has_map_versions)?;
         // The data set is last: its file names come from the inputs, and must not replace other
         // outputs.
         if options.data_set {
@@ -136,10 +147,12 @@ impl RunRecorder {
         self.push_to_sinks(&SinkFrame::new(engine, self.totals.frames, source, is_first))
     }
 
-    /// Writes a received frame with the screen after it.
+    /// Writes a received frame with the screen after it. A design with zones has a version of its
+    /// map of classes.
     pub(crate) fn push_received(
         &mut self,
         source: &SourceFrame,
+        map_version: Option<u16>,
         outcome: &FrameOutcome,
         (camera, screen): (&Camera, FramePixels<'_>),
     ) -> Result<(), SimulatorError> {
@@ -148,6 +161,7 @@ impl RunRecorder {
             camera,
             number,
             source,
+            map_version,
             outcome,
             screen,
             is_first: false,
@@ -157,7 +171,7 @@ impl RunRecorder {
 
     fn push_to_sinks(&mut self, sink_frame: &SinkFrame<'_>) -> Result<(), SimulatorError> {
         self.write_out(false)?;
-        self.add_to_table(sink_frame.source, sink_frame.outcome);
+        self.add_to_table(sink_frame);
         let Self { pixel_events: pixels, clocks, sinks, .. } = self;
         let ((pixels, clocks), sinks) = rayon::join(
             || {
@@ -259,7 +273,8 @@ impl RunRecorder {
         self.totals.frames
     }
 
-    fn add_to_table(&mut self, source: &SourceFrame, outcome: &FrameOutcome) {
+    fn add_to_table(&mut self, sink_frame: &SinkFrame<'_>) {
+        let SinkFrame { source, map_version, outcome, .. } = *sink_frame;
         let (srs, trs) = (count_set(&outcome.srs), count_set(&outcome.trs));
         let active = count_set(&outcome.active);
         let sent = SentCounts::of_actions(&self.design, &outcome.actions);
@@ -267,7 +282,17 @@ impl RunRecorder {
         let label = source.label.as_deref();
         self.totals.add(srs, trs, active, sent);
         self.totals.record_time(time_us);
-        self.table.push(&FrameRow { frame, time_us, name, label, srs, trs, active, sent });
+        self.table.push(&FrameRow {
+            frame,
+            time_us,
+            name,
+            label,
+            srs,
+            trs,
+            active,
+            sent,
+            map_version,
+        });
     }
 }
 

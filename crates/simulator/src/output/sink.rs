@@ -16,6 +16,9 @@ pub(super) struct SinkFrame<'a> {
     /// The number of the frame in the run.
     pub(super) number: u64,
     pub(super) source: &'a SourceFrame,
+    /// The version of the map of classes in the FRAME of a recording, or `None` for a simulation or
+    /// a design without zones.
+    pub(super) map_version: Option<u16>,
     pub(super) outcome: &'a FrameOutcome,
     /// The screen after the frame.
     pub(super) screen: FramePixels<'a>,
@@ -35,7 +38,8 @@ impl<'a> SinkFrame<'a> {
     ) -> Self {
         let (camera, outcome) = (engine.camera(), engine.outcome());
         let screen = engine.rendered();
-        Self { camera, number, source, outcome, screen, is_first, engine: Some(engine) }
+        let (map_version, engine) = (None, Some(engine));
+        Self { camera, number, source, map_version, outcome, screen, is_first, engine }
     }
 }
 

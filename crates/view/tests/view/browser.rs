@@ -30,6 +30,37 @@ fn printed(command: &mut Command, file: &Path) -> String {
     fs::read_to_string(file).unwrap()
 }
 
+/// Returns what Chromium prints of a page, with its profile in a folder.
+fn browse(program: &Path, folder: &Path, more: &str, link: &str) -> String {
+    let mut command = Command::new(program);
+    command
+        .args(["--headless", "--no-sandbox", "--disable-gpu", "--no-first-run", "--disable-sync"])
+        .args([
+            "--disable-background-networking",
+            "--disable-component-update",
+            "--hide-scrollbars",
+        ])
+        .arg(format!("--user-data-dir={}", folder.join("profile").display()))
+        .args(["--window-size=1000,900", "--virtual-time-budget=500", more, link]);
+    printed(&mut command, &folder.join("printed"))
+}
+
+#[test]
+fn a_browser_shows_the_version_of_the_map() {
+    let Some(program) = chromium() else { return eprintln!("skipped: there is no Chromium") };
+    let folder = tempfile::tempdir().unwrap();
+    for (zones, shown) in [(&["zones={}"][..], "map 0"), (&[], "")] {
+        let set = [&["frame={width=40,height=30}"], zones].concat();
+        let file = folder.path().join("packets.bin");
+        fs::write(&file, street_stream(&set, 3).bytes()).unwrap();
+        let view = open(&file, &set, None).unwrap();
+        wait_for(view.link(), "end", |state| state["status"] == "ended");
+        let page = browse(&program, folder.path(), "--dump-dom", view.link());
+        let part = format!("<dd id=\"number\">2</dd><dd id=\"map\">{shown}</dd>");
+        assert!(page.contains(&part), "{part}: {page}");
+    }
+}
+
 #[test]
 fn a_browser_draws_the_screen_and_lists_the_losses() {
     let Some(program) = chromium() else { return eprintln!("skipped: there is no Chromium") };
@@ -43,25 +74,7 @@ fn a_browser_draws_the_screen_and_lists_the_losses() {
     let view = open(&file, &CORE, None).unwrap();
     wait_for(view.link(), "end", |state| state["status"] == "ended");
     let picture = folder.path().join("page.png");
-    let run = |more: &str| {
-        let mut command = Command::new(&program);
-        command
-            .args([
-                "--headless",
-                "--no-sandbox",
-                "--disable-gpu",
-                "--no-first-run",
-                "--disable-sync",
-            ])
-            .args([
-                "--disable-background-networking",
-                "--disable-component-update",
-                "--hide-scrollbars",
-            ])
-            .arg(format!("--user-data-dir={}", folder.path().join("profile").display()))
-            .args(["--window-size=1000,900", "--virtual-time-budget=500", more, view.link()]);
-        printed(&mut command, &folder.path().join("printed"))
-    };
+    let run = |more: &str| browse(&program, folder.path(), more, view.link());
     let page = run("--dump-dom");
     for part in [
         "<dd id=\"number\">2</dd>",

@@ -6,6 +6,8 @@ use std::io::Write;
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
+use foveate_design::DesignConfig;
+use foveate_packets::{PacketLayout, packet_writer};
 use foveate_view::PlayMode;
 
 use crate::client::{get, link_parts, open, page_after, wait_for};
@@ -55,6 +57,30 @@ fn frames_over_a_line_are_those_of_the_simulator() {
         let again = page_after(view.link(), state["change"].as_u64().unwrap());
         assert!(again.picture.is_empty() && again.state["history"] == serde_json::json!([]));
         assert_eq!(view.frames_shown(), 5);
+    }
+}
+
+#[test]
+fn the_version_of_the_map_is_shown_only_with_zones() {
+    let set = ["frame={width=45,height=38}", "zones={}"];
+    for (set, map_versions) in [(&set[..1], [0, 0, 0]), (&set[..], [0, 1, 65_535])] {
+        let config = DesignConfig::from_toml_with("", set).unwrap();
+        let layout = PacketLayout::new(&config.validate().unwrap(), false, 1_000_000).unwrap();
+        let mut line = SerialLine::new();
+        let view = open(&line.path, set, None).unwrap();
+        let numbered = street_stream(set, 3).frames;
+        for ((number, packets), version) in (0u32..).zip(&numbered).zip(map_versions) {
+            // The FRAME is replaced by one with another version.
+            let start = (u64::from(number) * 33_333, number == 0);
+            let mut sent = Vec::new();
+            packet_writer::append_frame_of_map(&mut sent, &layout, number, start, version).unwrap();
+            sent.extend(&packets[layout.frame_bytes()..]);
+            line.send(&sent);
+            let page = wait_for(view.link(), "frame", |state| state["frames"] == number + 1);
+            let shown = page.state["history"][0].get("map_version").cloned();
+            assert_eq!(shown, layout.has_zones().then(|| version.into()), "{set:?}");
+            assert_eq!(page.state["losses"], serde_json::json!({}));
+        }
     }
 }
 

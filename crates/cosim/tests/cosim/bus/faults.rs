@@ -24,6 +24,16 @@ pub(crate) const MEANS: &[&str] = &[
 pub(crate) const LAST_SENT: &[&str] =
     &["frame={width=64,height=40}", "denoise.filter='none'", "temporal.reference='last-sent'"];
 
+/// A core with zones whose map takes more than one word, with means of regions that are off.
+pub(crate) const ZONED: &[&str] = &[
+    "frame={width=64,height=44}",
+    "region.size=4",
+    "denoise.filter='none'",
+    "spatial=[{feature='variance'}]",
+    "render.irrelevant='mean'",
+    "zones={off_level=20,keen={temporal={level=2},spatial=[{feature='variance',min_score=1}]}}",
+];
+
 /// A fault: one edit of one file, and the check that must find it.
 pub(crate) struct BusFault {
     /// The check that the fault proves.
@@ -39,7 +49,7 @@ pub(crate) struct BusFault {
     pub(crate) to: &'static str,
 }
 
-pub(crate) const FAULTS: [BusFault; 12] = [
+pub(crate) const FAULTS: [BusFault; 16] = [
     BusFault {
         check: "the bytes of a packet",
         port: "m_axis_packets",
@@ -135,5 +145,37 @@ pub(crate) const FAULTS: [BusFault; 12] = [
         module: "axi_registers",
         from: "if (eol_early_i || interrupt_test",
         to: "if (eol_early_i && !(write_q && written == 10'd10) || interrupt_test",
+    },
+    BusFault {
+        check: "the version of the map in a FRAME packet",
+        port: "m_axis_packets",
+        design: ZONED,
+        module: "rcm_axi",
+        from: "if (frame_begins) frame_version_q",
+        to: "if (opened) frame_version_q",
+    },
+    BusFault {
+        check: "a commit while a frame begins",
+        port: "m_axis_packets",
+        design: ZONED,
+        module: "rcm_axi",
+        from: "commit_q && !rst && !frame_begins && !opening_q",
+        to: "commit_q && !rst && frame_begins",
+    },
+    BusFault {
+        check: "the address of the window of classes",
+        port: "s_axi",
+        design: ZONED,
+        module: "rcm_axi",
+        from: "if (zone_write) zone_address_q",
+        to: "if (zone_word_write) zone_address_q",
+    },
+    BusFault {
+        check: "a version that stays at a reset",
+        port: "m_axis_packets",
+        design: ZONED,
+        module: "rcm_axi",
+        from: "if (rst) zone_address_q",
+        to: "if (rst) version_q <= 16'd0;\n        if (rst) zone_address_q",
     },
 ];

@@ -4,7 +4,7 @@
 pub(crate) mod faults;
 
 use crate::common::in_parallel;
-use faults::{BusFault, FAULTS};
+use faults::{BusFault, FAULTS, ZONED};
 use foveate_cosim::{BusJob, CosimReport};
 use foveate_design::{Design, DesignConfig};
 use foveate_toolchain::testing::require_tools;
@@ -75,6 +75,16 @@ pub(crate) const DESIGNS: &[&[&str]] = &[
         "denoise.filter='none'",
         "spatial=[{feature='variance'}]",
         "hardware.pixels_per_clock=4",
+    ],
+    ZONED,
+    &[
+        "frame={width=80,height=40}",
+        "region.size=4",
+        "denoise.filter='none'",
+        "spatial=[{feature='segment',min_score=2},{feature='edge'}]",
+        "temporal.reference='last-sent'",
+        "hardware.pipelining='deep'",
+        "zones={areas=[{class='off',rectangle=[0,0,80,8]}],keen={temporal={level=1},spatial=[{feature='edge',level=9}]}}",
     ],
 ];
 
@@ -207,7 +217,8 @@ fn the_designs_of_the_bus_faults_pass_without_a_fault() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
         return;
     }
-    let failures = failing_runs(&[(faults::SMALL, 1), (faults::MEANS, 1), (faults::LAST_SENT, 1)]);
+    let designs = [faults::SMALL, faults::MEANS, faults::LAST_SENT, ZONED];
+    let failures = failing_runs(&designs.map(|design| (design, 1)));
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
@@ -264,7 +275,7 @@ fn every_seed_reaches_the_situations_of_cores_on_axi() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
         return;
     }
-    let seeds: Vec<(&[&str], u64)> = [faults::SMALL, faults::MEANS, faults::LAST_SENT]
+    let seeds: Vec<(&[&str], u64)> = [faults::SMALL, faults::MEANS, faults::LAST_SENT, ZONED]
         .into_iter()
         .flat_map(|keys| (2..6).map(move |seed| (keys, seed * 1_000_003)))
         .collect();

@@ -42,6 +42,31 @@ static unsigned interrupt(void) {
     return answer();
 }
 
+/* Sets the classes of all regions in turn, from the class `first` on: the classes of the model in mod.rs. */
+static void set_classes(const foveate_core *core, unsigned first) {
+#ifdef FOVEATE_ZONE_WORD
+    static uint8_t classes[MOST];
+    const size_t regions = (size_t)core->design.columns * core->design.rows;
+    for (size_t at = 0; at < regions; ++at) classes[at] = (uint8_t)((first + at) % 4);
+    const uint16_t version = foveate_map_version(core);
+    classes[regions - 1] = 4;
+    CHECK(foveate_set_classes(core, classes) == FOVEATE_TOO_LARGE && foveate_map_version(core) == version);
+    classes[regions - 1] = (uint8_t)((first + regions - 1) % 4);
+    CHECK(foveate_set_classes(core, classes) == FOVEATE_OK);
+    CHECK(foveate_map_version(core) == version + 1);
+#else
+    CHECK(core && first < 4);
+#endif
+}
+
+static unsigned map_version(const foveate_core *core) {
+#ifdef FOVEATE_ZONE_WORD
+    return foveate_map_version(core);
+#else
+    return core ? 0 : 1;
+#endif
+}
+
 /* Plays a frame, and puts its packets on the screen and the screen into the file. Returns the number of packets. */
 static unsigned play(const foveate_core *core, unsigned number, bool is_first, FILE *file) {
     static uint8_t buffer[MOST], bytes[MOST];
@@ -61,6 +86,7 @@ static unsigned play(const foveate_core *core, unsigned number, bool is_first, F
             ++frames;
             CHECK(packet.version == FOVEATE_FORMAT && packet.first == is_first);
             CHECK(packet.fingerprint == core->design.fingerprint);
+            CHECK(packet.map_version == map_version(core));
         }
         if (packet.type == FOVEATE_PACKET_END) {
             CHECK(packet.regions == regions && packet.dropped == 0 && packet.rows == 0);
@@ -100,7 +126,10 @@ int main(int count, char **arguments) {
     CHECK(read_core(stdout, FOVEATE_CONTROL) == (FOVEATE_CONTROL_ENABLE_MASK | FOVEATE_CONTROL_WAIT_MASK));
     foveate_let_wait(&core, false);
 
-    for (unsigned frame = 0; frame < 4; ++frame) CHECK(play(&core, frame, frame == 0, file) > 0);
+    for (unsigned frame = 0; frame < 4; ++frame) {
+        if (frame > 0) set_classes(&core, frame);
+        CHECK(play(&core, frame, frame == 0, file) > 0);
+    }
     CHECK(!foveate_is_busy(&core));
 
     foveate_stop(&core);

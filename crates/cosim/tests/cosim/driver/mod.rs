@@ -4,7 +4,7 @@
 
 use crate::bus::axi_design;
 use crate::common::in_parallel;
-use foveate_design::{Design, RegionAction};
+use foveate_design::{Design, RegionAction, RegionClass};
 use foveate_emit::{AXI_TOP, FieldKind, axi_modules, axi_registers, axi_software};
 use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, region_pixels};
@@ -41,6 +41,14 @@ const DESIGNS: &[(&[&str], &[&str])] = &[
             "hardware.pixels_per_clock=2",
         ],
         &["spatial=[{feature='mad',min_score=20}]", "temporal={level=20,min_count=3}"],
+    ),
+    (
+        &["frame={width=64,height=48}", "render.irrelevant='mean'", "zones={off_level=30}"],
+        &[
+            "spatial=[{feature='edge',level=60,min_score=3}]",
+            "temporal={level=5,min_count=2}",
+            "zones={off_level=50,keen={temporal={level=2,min_count=1},spatial=[{feature='edge',min_score=1}]}}",
+        ],
     ),
 ];
 
@@ -170,6 +178,15 @@ fn threshold_flag(design: &Design) -> String {
     format!("-DTHRESHOLDS={}", values.collect::<Vec<_>>().join(","))
 }
 
+/// Sets the classes of all regions in turn, from the class with code `first` on.
+fn set_classes(model: &mut FunctionalCamera, first: usize) {
+    let regions = model.classes().len();
+    let code = |region: usize| u8::try_from((first + region) % 4).unwrap();
+    let classes: Vec<_> =
+        (0..regions).map(|region| RegionClass::from_code(code(region)).unwrap()).collect();
+    model.set_classes(&classes).unwrap();
+}
+
 /// Runs software that sets up a core, lets frames come, and paints what leaves. The screen must be
 /// that of the model.
 fn check_screen(design: &Design, changed: &Design, fault: DriverFault) -> Result<(), String> {
@@ -184,6 +201,7 @@ fn check_screen(design: &Design, changed: &Design, fault: DriverFault) -> Result
             // The frame comes while the core is stopped.
             4 => continue,
             6 => model.reset(),
+            1..=3 if design.zones().is_some() => set_classes(&mut model, number),
             _ => {}
         }
         expected.extend(bytes_of(&model.step(frame).unwrap().rendered));
