@@ -274,64 +274,64 @@ fn score_index(design: SerialDesign<'_>, kind: FeatureKind) -> (String, String) 
     (format!("{}_INDEX", parameter_prefix(kind)), index.to_string())
 }
 
+/// A function that returns the signal of a threshold in the regions of a class.
+type ThresholdSignal = fn(&Design, PortRole) -> String;
+
 /// Returns the inputs of the array for the level of a feature, that of keen regions last, and the
 /// signals connected to them. The array has these inputs even if the design lacks the feature. The
 /// list is empty for a feature that has no level.
 fn level_inputs(design: SerialDesign<'_>, kind: FeatureKind) -> Vec<(&'static str, String)> {
-    let names = match kind {
-        FeatureKind::Edge => ["edge_half_i", "keen_edge_half_i"],
-        FeatureKind::Corner => ["corner_level_i", "keen_corner_level_i"],
-        FeatureKind::Segment => ["segment_level_i", "keen_segment_level_i"],
+    let classes: [(RegionClass, ThresholdSignal); 2] =
+        [(RegionClass::Normal, threshold_signal), (RegionClass::Keen, keen_signal)];
+    let whole = || classes.map(|(_, signal)| pixel_level(design, kind, signal));
+    let (names, levels) = match kind {
+        FeatureKind::Edge => (
+            ["edge_half_i", "keen_edge_half_i"],
+            classes.map(|(class, signal)| half_level(design, kind, class, signal)),
+        ),
+        FeatureKind::Corner => (["corner_level_i", "keen_corner_level_i"], whole()),
+        FeatureKind::Segment => (["segment_level_i", "keen_segment_level_i"], whole()),
         FeatureKind::Mad
         | FeatureKind::Variance
         | FeatureKind::Range
         | FeatureKind::Surface
         | FeatureKind::Flow => return Vec::new(),
     };
-    let of_class = |class, signal: fn(&Design, PortRole) -> String| match kind {
-        FeatureKind::Edge => half_edge_level(design, class, signal),
-        _ => pixel_level(design, kind, signal),
-    };
-    let own = of_class(RegionClass::Normal, threshold_signal);
-    let keen = of_class(RegionClass::Keen, keen_signal);
-    names.into_iter().zip([own, keen]).collect()
+    names.into_iter().zip(levels).collect()
 }
 
 /// Returns the signal of a level that has the bits of a pixel, or zero without the feature.
-fn pixel_level(
-    design: SerialDesign<'_>,
-    kind: FeatureKind,
-    signal: fn(&Design, PortRole) -> String,
-) -> String {
+fn pixel_level(design: SerialDesign<'_>, kind: FeatureKind, signal: ThresholdSignal) -> String {
     let given = design.feature(kind).map(|_| signal(&design, PortRole::Level(kind)));
     given.unwrap_or_else(|| format!("{}'d0", design.pixel_bits()))
 }
 
-/// Returns floor(level / 2) of `edge` in regions of a class, two bits wider than a pixel.
-fn half_edge_level(
+/// Returns floor(level / 2) of a feature in regions of a class, two bits wider than a pixel.
+fn half_level(
     design: SerialDesign<'_>,
+    kind: FeatureKind,
     class: RegionClass,
-    signal: fn(&Design, PortRole) -> String,
+    signal: ThresholdSignal,
 ) -> String {
     let width = design.pixel_bits() + 2;
     let thresholds = design.class_thresholds(class);
-    let edge = thresholds.features.iter().find(|feature| feature.kind() == FeatureKind::Edge);
-    let Some(edge) = edge else { return format!("{width}'d0") };
+    let found = thresholds.features.iter().find(|feature| feature.kind() == kind);
+    let Some(feature) = found else { return format!("{width}'d0") };
     match design.threshold_source() {
         ThresholdSource::Constant => {
-            format!("{width}'d{}", edge.level().expect("edge has a level") / 2)
+            format!("{width}'d{}", feature.level().expect("the feature has a level") / 2)
         }
         ThresholdSource::Runtime => {
-            let level = signal(&design, PortRole::Level(FeatureKind::Edge));
-            let half = format!("{level}[{}:1]", edge.level_bits() - 1);
-            zero_extended(&half, edge.level_bits() - 1, width)
+            let level = signal(&design, PortRole::Level(kind));
+            let half = format!("{level}[{}:1]", feature.level_bits() - 1);
+            zero_extended(&half, feature.level_bits() - 1, width)
         }
     }
 }
 
 /// Returns the minima of all scores, that of the last feature first. `signal` returns the signal of a
 /// threshold.
-fn minima(design: SerialDesign<'_>, signal: fn(&Design, PortRole) -> String) -> Vec<String> {
+fn minima(design: SerialDesign<'_>, signal: ThresholdSignal) -> Vec<String> {
     let width = design.max_score_bits();
     let minimum = |feature: &SpatialFeature| {
         let name = signal(&design, PortRole::MinScore(feature.kind()));

@@ -227,8 +227,8 @@ class BusDesign(Design):
             return "abort"
         if result.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
             return "hang"
-        # Icarus accepts this Verilog and Verilator does not.
-        if "%Error" in result.stderr:
+        # Icarus accepts this Verilog and Verilator does not, or makes C++ of it that does not compile.
+        if "%Error" in result.stderr or re.search(r"\.cpp:\d+:\d+: error:", result.stderr):
             return "refused"
         raise RuntimeError(f"{self.name}: co-simulation has no result: {result.stderr[-300:]}")
 
