@@ -91,6 +91,8 @@ struct SerialReadme {
     /// The clocks by which the last pixel leaves after `ready_o` is 1 again.
     behind: u32,
     pauses: u64,
+    /// True if regions have classes.
+    zones: bool,
     longest_pause: u32,
     empty: u32,
     sync: String,
@@ -167,6 +169,7 @@ fn serial_view(design: SerialDesign<'_>, prefix: &Prefix, timing: &SerialTiming)
         neighborhood: design.neighborhood().name(),
         filter: design.filter().name(),
         feed: design.feed().name(),
+        zones: design.zones().is_some(),
         raster: design.feed() == PixelFeed::Raster,
         halo: design.halo(),
         stream_side: design.stream_side(),

@@ -44,6 +44,8 @@ struct RasterReadme {
     blank_rows: u64,
     /// True if a frame waits until the one before has left.
     waits: bool,
+    /// True if regions have classes.
+    zones: bool,
     decided_after: u64,
     second_pass: bool,
     region_words: u32,
@@ -119,6 +121,7 @@ fn view(design: RasterDesign<'_>, prefix: &Prefix, timing: &RasterTiming) -> Ras
         stall: timing.edges_to_ready(),
         blank_rows: timing.blank_rows(),
         waits: timing.waits_for_pending,
+        zones: design.zones().is_some(),
         decided_after: timing.clocks_to_decision(),
         second_pass: timing.second_pass.is_some(),
         region_words: timing.region_words,
