@@ -57,8 +57,8 @@ pub(super) const FAULTS: [PlantedFault; 12] = [
         port: "srs_o",
         design: LAST_SENT,
         module: "raster_decision",
-        from: "srs = ALL ? &decided_votes",
-        to: "srs = ALL ? |decided_votes",
+        from: "relevant = ALL ? &decided_votes",
+        to: "relevant = ALL ? |decided_votes",
     },
     PlantedFault {
         check: "the handshake of pixels: when a frame must wait",
