@@ -15,9 +15,10 @@ import csv
 import os
 import sys
 
-import foveate as fv
 import numpy as np
 import onnxruntime
+
+import foveate as fv
 
 SIDE = 416  # pixels of a side of the network's input
 STRIDES = (8, 16, 32)
