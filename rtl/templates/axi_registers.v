@@ -102,9 +102,9 @@ module {= module =} (
 {% for output in outputs %}
     assign {= output.0 =}_o = {= output.1 =};
 {%- endfor %}
-{%- for value in handed %}
-    assign {= value.name =}_o = wdata_i{= value.range =};
-    assign {= value.name =}_write_o = write_q && written == 10'd{= value.word =} && &wstrb_i;
+{%- for field in external_fields %}
+    assign {= field.name =}_o = wdata_i{= field.range =};
+    assign {= field.name =}_write_o = write_q && written == 10'd{= field.word =} && &wstrb_i;
 {%- endfor %}
 {%- if !has_window %}
     assign interrupt_o = {% for event in events %}{% if !loop.first %} || {% endif %}(events_{= event.name =}_q && interrupt_enable_{= event.name =}_q){% endfor %};

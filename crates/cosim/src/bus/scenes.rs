@@ -404,7 +404,7 @@ impl<'a> SceneBuilder<'a> {
             for _ in 0..4 {
                 let (read, written) = (self.random_register(), self.random_register());
                 // A map of classes stays at a reset.
-                if !written.name.starts_with("zone_") {
+                if !is_class_register(written) {
                     let value = self.random.up_to_u32(u32::MAX);
                     traffic.write_bytes(written.address, value, ALL_BYTES);
                 }
@@ -461,14 +461,14 @@ impl<'a> SceneBuilder<'a> {
                 let mask = match register.name.as_str() {
                     "control" | "events" | "interrupt_test" => continue,
                     // These have scenes of their own.
-                    name if name.starts_with("zone_") => continue,
+                    _ if is_class_register(register) => continue,
                     _ => writable_mask(register) & bytes,
                 };
                 value = (value & !mask) | (data & mask);
                 traffic.write_bytes(register.address, data, strobes);
                 traffic.read(register.address, ExpectedRead::Value(value));
             }
-            if !register.name.starts_with("zone_") {
+            if !is_class_register(register) {
                 traffic.write_bytes(register.address, reset_value(register), ALL_BYTES);
             }
             traffic.read(register.address, ExpectedRead::Value(reset_value(register)));
@@ -645,18 +645,18 @@ fn field_mask(register: &Register, names: &[&str]) -> u32 {
     named.fold(0, |bits, field| bits | 1 << field.low)
 }
 
+/// Returns true if a register belongs to the memory of classes, which keeps its map at a reset.
+fn is_class_register(register: &Register) -> bool {
+    register.name.starts_with("zone_")
+}
+
 /// Returns the value of a register after a reset.
 fn reset_value(register: &Register) -> u32 {
-    register.fields.iter().fold(0, |value, field| {
-        let own = match field.kind {
-            FieldKind::Constant(own)
-            | FieldKind::Control { reset: own }
-            | FieldKind::Threshold { reset: own } => own,
-            FieldKind::Status if register.name == "tick_rate" => TICK_RATE,
-            FieldKind::Status | FieldKind::Command | FieldKind::Event | FieldKind::Handed => 0,
-        };
-        value | own << field.low
-    })
+    let status = if register.name == "tick_rate" { TICK_RATE } else { 0 };
+    register
+        .fields
+        .iter()
+        .fold(0, |value, field| value | field.kind.reset().unwrap_or(status) << field.low)
 }
 
 /// Returns the mask of the register bits that keep a written value.
@@ -669,7 +669,7 @@ fn writable_mask(register: &Register) -> u32 {
         | FieldKind::Status
         | FieldKind::Command
         | FieldKind::Event
-        | FieldKind::Handed => mask,
+        | FieldKind::External => mask,
     })
 }
 

@@ -22,7 +22,7 @@ pub(super) struct RegisterModule {
     commands: Vec<String>,
     writes: Vec<ByteWrite>,
     events: Vec<EventBit>,
-    handed: Vec<HandedValue>,
+    external_fields: Vec<ExternalField>,
     reads: Vec<(u32, String)>,
     outputs: Vec<(String, String)>,
 }
@@ -46,8 +46,8 @@ struct ByteWrite {
     range: String,
 }
 
-/// A value that the core takes when it is written.
-struct HandedValue {
+/// A field whose value the core itself keeps, which takes what is written.
+struct ExternalField {
     name: String,
     word: u32,
     range: String,
@@ -77,7 +77,7 @@ pub(super) fn register_module(
         commands: Vec::new(),
         writes: Vec::new(),
         events: Vec::new(),
-        handed: Vec::new(),
+        external_fields: Vec::new(),
         reads: Vec::new(),
         outputs: Vec::new(),
     };
@@ -136,12 +136,12 @@ impl RegisterModule {
                     self.add_output(&name, field);
                 }
             }
-            FieldKind::Handed => {
+            FieldKind::External => {
                 self.add_port("input ", field.width, &format!("{name}_i"), &field.doc);
                 self.add_port("output", field.width, &format!("{name}_o"), &field.doc);
                 let doc = format!("{name}_o is written");
                 self.add_port("output", 1, &format!("{name}_write_o"), &doc);
-                self.handed.push(HandedValue {
+                self.external_fields.push(ExternalField {
                     name,
                     word: register.address / 4,
                     range: format!("[{}:{}]", field.low + field.width - 1, field.low),
@@ -221,7 +221,7 @@ fn read_value(register: &Register) -> String {
         let name = signal_name(register, field);
         parts.push(match field.kind {
             FieldKind::Constant(value) => format!("{}'d{value}", field.width),
-            FieldKind::Status | FieldKind::Handed => format!("{name}_i"),
+            FieldKind::Status | FieldKind::External => format!("{name}_i"),
             FieldKind::Control { .. } | FieldKind::Threshold { .. } | FieldKind::Event => {
                 format!("{name}_q")
             }
