@@ -2,46 +2,12 @@
 //! The maps of classes that frames use, by the rules of `docs/zones.md`: a log of all edges, from
 //! which every answer is computed anew. It shares no code with the memory of the models.
 
-use foveate_design::{Camera, RegionClass};
 use foveate_frame::Frame;
-use foveate_model::{ClassMapInputs, ThresholdInputs, ZoneInputs};
+use foveate_model::ClassMapInputs;
 
 use crate::frames::SeededRandom;
 use crate::oracle::{OracleOutcome, add_to_history};
-use crate::parameters::{DesignParameters, ZoneParameters};
-
-/// The values of all threshold inputs of a core, with or without zones.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct PortThresholds {
-    pub(crate) own: ThresholdInputs,
-    keen: ThresholdInputs,
-    off_summary_level: u32,
-}
-
-impl From<ThresholdInputs> for PortThresholds {
-    /// Makes inputs that are the same for all classes.
-    fn from(own: ThresholdInputs) -> Self {
-        Self { own, keen: own, off_summary_level: own.summary_level }
-    }
-}
-
-impl PortThresholds {
-    /// Returns the thresholds of the configuration.
-    pub(crate) fn of_camera(camera: &Camera) -> Self {
-        let of_class = |class| ThresholdInputs::of_class(camera, class);
-        Self {
-            own: of_class(RegionClass::Normal),
-            keen: of_class(RegionClass::Keen),
-            off_summary_level: of_class(RegionClass::Off).summary_level,
-        }
-    }
-
-    /// Returns the inputs that only a core with zones has.
-    pub(crate) fn zone_inputs(&self, map: ClassMapInputs) -> ZoneInputs<'_> {
-        let Self { keen, off_summary_level, .. } = self;
-        ZoneInputs { classes: &[], map, keen, off_summary_level: *off_summary_level }
-    }
-}
+use crate::parameters::DesignParameters;
 
 /// A frame of a design with zones, and the thresholds of all classes in this frame.
 #[derive(Clone, Debug)]
@@ -212,20 +178,5 @@ impl ClassMapWriter {
             }
         }
         self.planned = planned;
-    }
-}
-
-impl ZoneParameters {
-    /// Divides the thresholds by small random numbers.
-    pub(crate) fn reduce(&mut self, random: &mut SeededRandom) {
-        for (level, min_milli) in &mut self.features {
-            *level /= 1 + random.below(3);
-            // The threshold stays a whole number, as counts of hits must be.
-            *min_milli = *min_milli / (1 + random.below(3)) / 1000 * 1000;
-        }
-        self.temporal_level /= 1 + random.below(3);
-        self.temporal_min /= 1 + random.below(3);
-        self.summary_level /= 1 + random.below(3);
-        self.off_level /= 1 + random.below(3);
     }
 }

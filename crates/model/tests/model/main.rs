@@ -19,6 +19,7 @@ mod hard_cases;
 mod oracle;
 mod parameters;
 mod pipelined_properties;
+mod port_thresholds;
 mod raster;
 mod schedule;
 mod screen;

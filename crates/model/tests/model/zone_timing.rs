@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use foveate_design::{Design, DesignConfig, PortRole};
 use foveate_model::{ClassMapInputs, CoreInput, CycleModel, rcm_model};
 
-use crate::class_maps::PortThresholds;
+use crate::port_thresholds::PortThresholds;
 
 /// A word whose regions are all `always`.
 const ALL_ALWAYS: u32 = u32::MAX;

@@ -8,9 +8,9 @@ use foveate_model::{FunctionalCamera, FunctionalOutcome, RasterOutput};
 
 use super::driver::{RasterDriver, RasterStimulus, RasterTrace, RasterTraffic};
 use super::raster_parameters::{PlantedMisreading, RasterParameters};
-use crate::class_maps::PortThresholds;
 use crate::hard_cases::hard_frames;
 use crate::parameters::{DesignParameters, FeatureParameters, PeripheryParameters};
+use crate::port_thresholds::PortThresholds;
 use crate::screen::ReceiverScreen;
 
 /// Checks that the decision on the ports is that of the camera.

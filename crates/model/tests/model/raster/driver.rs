@@ -2,14 +2,14 @@
 //! A driver that feeds frames to a core, word by word, in front of a sink that is not always ready.
 //! It records inputs and outputs.
 
-use foveate_design::FeatureKind;
 use foveate_frame::Frame;
 use foveate_model::{ClassMapInputs, CoreInput, RasterOutput, RasterRcm};
 
 use super::memory::{ExternalMemory, MemoryFaultRates};
 use super::raster_parameters::RasterParameters;
-use crate::class_maps::{ClassMapWriter, PortThresholds};
+use crate::class_maps::ClassMapWriter;
 use crate::frames::SeededRandom;
+use crate::port_thresholds::PortThresholds;
 
 /// The clocks at which the sink is ready.
 #[derive(Clone, Copy, Debug)]
@@ -84,7 +84,6 @@ pub(crate) struct RasterDriver {
     /// Clocks left of the current phase of the sink, and true if the sink is ready in it.
     sink_phase: (i64, bool),
     decisions: i64,
-    noise: PortThresholds,
     /// The writer of maps, if the core has zones.
     writer: Option<ClassMapWriter>,
     /// True between the first and the last word of a frame.
@@ -106,7 +105,6 @@ impl RasterDriver {
             clocks_left: i64::MAX,
             sink_phase: (0, true),
             decisions: 0,
-            noise: PortThresholds::of_camera(&design),
             writer: recipe.base.zones.as_ref().map(writer),
             is_inside: false,
         };
@@ -117,7 +115,8 @@ impl RasterDriver {
     /// Resets the core for some clocks, with random values at its ports.
     pub(crate) fn reset(&mut self, clocks: i64) {
         for _ in 0..clocks {
-            let (word, thresholds) = (self.ignored_word(), self.ignored_thresholds());
+            let (word, thresholds) =
+                (self.ignored_word(), PortThresholds::random(&mut self.random));
             let (valid, forward_ready) = (self.random.below(2) > 0, self.random.below(2) > 0);
             let map = self.map_inputs();
             let input = CoreInput {
@@ -164,7 +163,7 @@ impl RasterDriver {
             }
         }
         for _ in 0..rest {
-            let noise = self.ignored_thresholds();
+            let noise = PortThresholds::random(&mut self.random);
             self.idle(&noise);
         }
         std::mem::take(&mut self.trace)
@@ -251,17 +250,6 @@ impl RasterDriver {
     fn ignored_word(&mut self) -> Vec<u16> {
         let top = self.recipe.base.pixel_max() + 1;
         (0..self.recipe.word_pixels).map(|_| self.random.below(top) as u16).collect()
-    }
-
-    /// Returns thresholds that the core must ignore.
-    fn ignored_thresholds(&mut self) -> PortThresholds {
-        let mut noise = self.noise.own;
-        noise.temporal_level = self.random.below(2) as u32;
-        noise.temporal_min_count = self.random.below(5) as u32;
-        noise.summary_level = self.random.below(2) as u32;
-        noise.level = [self.random.below(9) as u32; FeatureKind::COUNT];
-        noise.min_score = [self.random.below(9) as u64; FeatureKind::COUNT];
-        noise.into()
     }
 }
 

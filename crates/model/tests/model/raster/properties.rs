@@ -3,17 +3,16 @@
 //! are not taken, sinks that stall, memories that fail, thresholds that change between frames, and
 //! resets at any edge.
 
-use foveate_design::FeatureKind;
 use foveate_frame::Frame;
-use foveate_model::ThresholdInputs;
 use proptest::prelude::*;
 
 use super::driver::{RasterDriver, RasterStimulus, RasterTraffic, SinkPattern};
 use super::memory::MemoryFaultRates;
 use super::raster_oracle::{RasterCheckResult, RasterOracle};
 use super::raster_parameters::{RasterParameters, arbitrary_raster_parameters};
-use crate::class_maps::{ClassMapLog, PortThresholds};
+use crate::class_maps::ClassMapLog;
 use crate::frames::{ClipScript, SeededRandom, arbitrary_scripts, make_clip};
+use crate::port_thresholds::PortThresholds;
 
 pub(crate) fn arbitrary_traffic() -> impl Strategy<Value = RasterTraffic> {
     let gaps = prop_oneof![3 => Just(0i64), 1 => 1i64..70];
@@ -45,41 +44,7 @@ pub(crate) fn arbitrary_traffic() -> impl Strategy<Value = RasterTraffic> {
 
 /// Returns the recipe with other thresholds, if they are inputs.
 fn with_other_thresholds(recipe: &RasterParameters, seed: u64) -> RasterParameters {
-    let mut recipe = recipe.clone();
-    let mut random = SeededRandom(seed);
-    if recipe.base.constant || random.below(3) == 0 {
-        return recipe;
-    }
-    for feature in &mut recipe.base.features {
-        feature.level /= 1 + random.below(3);
-        // The threshold stays a whole number, as counts of hits must be.
-        feature.min_milli = feature.min_milli / (1 + random.below(3)) / 1000 * 1000;
-    }
-    recipe.base.temporal_level /= 1 + random.below(3);
-    recipe.base.temporal_min /= 1 + random.below(3);
-    if let Some(periphery) = &mut recipe.base.periphery {
-        periphery.level /= 1 + random.below(3);
-    }
-    if let Some(zones) = &mut recipe.base.zones {
-        zones.reduce(&mut random);
-    }
-    recipe
-}
-
-/// Returns the values of the threshold inputs. They are arbitrary if the core has constants.
-fn applied_thresholds(recipe: &RasterParameters) -> PortThresholds {
-    if recipe.base.constant {
-        let (level, min_score) = ([1; FeatureKind::COUNT], [1; FeatureKind::COUNT]);
-        return ThresholdInputs {
-            level,
-            min_score,
-            temporal_level: 0,
-            temporal_min_count: 1,
-            summary_level: 0,
-        }
-        .into();
-    }
-    PortThresholds::of_camera(&recipe.design())
+    RasterParameters { base: recipe.base.with_other_thresholds(seed), ..recipe.clone() }
 }
 
 /// A clip with the thresholds of each frame.
@@ -97,7 +62,7 @@ impl RasterClip {
     pub(crate) fn stimuli(&self) -> Vec<RasterStimulus> {
         let job = |(frame, recipe): (&Frame, &RasterParameters)| RasterStimulus {
             frame: frame.clone(),
-            thresholds: applied_thresholds(recipe),
+            thresholds: PortThresholds::applied(&recipe.base),
         };
         self.frames.iter().zip(&self.recipes).map(job).collect()
     }

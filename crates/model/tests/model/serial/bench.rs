@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A bench that applies frames to an array and compares every port after every edge.
 
-use foveate_design::FeatureKind;
 use foveate_frame::Frame;
 use foveate_model::{ClassMapInputs, CoreInput, SerialRcm, pad, region_stream};
 
 use super::expected_outputs::{ExpectedTimeline, MeaningfulOutputs, RegionResults, region_results};
 use super::serial_parameters::SerialParameters;
-use crate::class_maps::{ClassMapLog, ClassMapWriter, PortThresholds, ZonedFrame};
+use crate::class_maps::{ClassMapLog, ClassMapWriter, ZonedFrame};
 use crate::frames::SeededRandom;
 use crate::oracle::OracleOutcome;
+use crate::port_thresholds::PortThresholds;
 
 /// The pattern in which pixels come.
 #[derive(Clone, Copy, Debug)]
@@ -219,13 +219,7 @@ impl SerialBench {
 
     /// Changes the thresholds between frames, which the array must ignore.
     fn change_ignored_thresholds(&mut self) {
-        let mut noise = self.noise.own;
-        noise.temporal_level = self.random.below(2) as u32;
-        noise.temporal_min_count = self.random.below(5) as u32;
-        noise.summary_level = self.random.below(2) as u32;
-        noise.level = [self.random.below(9) as u32; FeatureKind::COUNT];
-        noise.min_score = [self.random.below(9) as u64; FeatureKind::COUNT];
-        self.noise = noise.into();
+        self.noise = PortThresholds::random(&mut self.random);
     }
 
     /// Returns pixels that the array must ignore.

@@ -2,17 +2,17 @@
 //! Tests of every port after every edge, for every kind of design: with gaps, pauses, pixels that
 //! are not taken, thresholds that change between frames, skipped clocks, and resets at any edge.
 
-use foveate_design::FeatureKind;
-use foveate_model::{ClassMapInputs, CoreInput, SerialRcm, ThresholdInputs};
+use foveate_model::{ClassMapInputs, CoreInput, SerialRcm};
 use proptest::prelude::*;
 
 use super::bench::{SerialBench, SerialCheckResult, SerialStimulus, SerialTraffic, port_pixels};
 use super::expected_outputs::region_results;
 use super::serial_parameters::{SerialParameters, arbitrary_serial_parameters};
-use crate::class_maps::{PortThresholds, ZonedFrame};
+use crate::class_maps::ZonedFrame;
 use crate::frames::{ClipScript, SeededRandom, arbitrary_scripts, make_clip};
 use crate::oracle::oracle_history_with_thresholds;
 use crate::parameters::DesignParameters;
+use crate::port_thresholds::PortThresholds;
 
 pub(crate) fn arbitrary_traffic() -> impl Strategy<Value = SerialTraffic> {
     let gaps = prop_oneof![2 => Just(0i64), 1 => 1i64..70];
@@ -28,54 +28,15 @@ pub(crate) fn arbitrary_traffic() -> impl Strategy<Value = SerialTraffic> {
     )
 }
 
-/// Returns the recipe with other thresholds, if they are inputs.
-fn with_other_thresholds(recipe: &DesignParameters, seed: u64) -> DesignParameters {
-    let mut recipe = recipe.clone();
-    let mut random = SeededRandom(seed);
-    if recipe.constant || random.below(3) == 0 {
-        return recipe;
-    }
-    for feature in &mut recipe.features {
-        feature.level /= 1 + random.below(3);
-        // The threshold stays a whole number, as counts of hits must be.
-        feature.min_milli = feature.min_milli / (1 + random.below(3)) / 1000 * 1000;
-    }
-    recipe.temporal_level /= 1 + random.below(3);
-    recipe.temporal_min /= 1 + random.below(3);
-    if let Some(periphery) = &mut recipe.periphery {
-        periphery.level /= 1 + random.below(3);
-    }
-    if let Some(zones) = &mut recipe.zones {
-        zones.reduce(&mut random);
-    }
-    recipe
-}
-
-/// Returns the values of the threshold inputs. They are arbitrary if the core has constants.
-fn applied_thresholds(recipe: &DesignParameters) -> PortThresholds {
-    if recipe.constant {
-        let (level, min_score) = ([1; FeatureKind::COUNT], [1; FeatureKind::COUNT]);
-        return ThresholdInputs {
-            level,
-            min_score,
-            temporal_level: 0,
-            temporal_min_count: 1,
-            summary_level: 0,
-        }
-        .into();
-    }
-    PortThresholds::of_camera(&recipe.camera())
-}
-
 /// Returns a clip with the thresholds of each frame and the results of the oracle.
 pub(crate) fn stimuli(recipe: &SerialParameters, script: &ClipScript) -> Vec<SerialStimulus> {
     let clip = make_clip(&recipe.base, script);
     let recipes: Vec<DesignParameters> =
-        script.iter().map(|&(_, seed)| with_other_thresholds(&recipe.base, seed)).collect();
+        script.iter().map(|&(_, seed)| recipe.base.with_other_thresholds(seed)).collect();
     let history = oracle_history_with_thresholds(&recipes, &clip);
     let job = |((frame, outcome), changed): ((&_, &_), &DesignParameters)| SerialStimulus {
         pixels: port_pixels(recipe, frame),
-        thresholds: applied_thresholds(changed),
+        thresholds: PortThresholds::applied(changed),
         facts: region_results(outcome),
         zoned: recipe.base.zones.as_ref().map(|_| {
             let (recipe, frame) = (changed.clone(), (*frame).clone());
