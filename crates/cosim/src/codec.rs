@@ -57,7 +57,7 @@ impl RecordCodec {
         };
         let thresholds = input.thresholds;
         let keen = input.zones.map_or(thresholds, |zones| zones.keen);
-        let map = input.zones.map(|zones| zones.map).unwrap_or_default();
+        let map = input.class_map();
         let value = match role {
             PortRole::Reset => input.reset.into(),
             PortRole::Valid => input.valid.into(),

@@ -3,7 +3,7 @@
 //! words and its ports.
 
 use crate::interface::{CoreStream, StreamRole};
-use crate::{Design, Port, PortDirection, PortRole, index_bits};
+use crate::{Design, Hardware, Port, PortDirection, PortRole, index_bits};
 use foveate_camera::RegionClass;
 
 /// Number of classes in a word of the map.
@@ -16,6 +16,15 @@ pub const CLASS_BITS: u32 = 2;
 pub const CLASS_WORD_BITS: u32 = CLASSES_PER_WORD * CLASS_BITS;
 
 impl Design {
+    /// Returns true if the core has a memory of classes. A pipelined core takes classes at its ports.
+    #[must_use]
+    pub fn has_class_memory(&self) -> bool {
+        match self.hardware() {
+            Hardware::Pipelined(_) => false,
+            Hardware::Serial(_) | Hardware::Raster(_) => self.zones().is_some(),
+        }
+    }
+
     /// Returns the number of words of a map of classes, ceil(M / 16).
     #[must_use]
     pub fn class_words(&self) -> u32 {

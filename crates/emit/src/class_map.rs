@@ -3,7 +3,7 @@
 //! connected to its ports. A design without zones connects constants.
 
 use crate::thresholds::threshold_signal;
-use foveate_design::{CLASSES_PER_WORD, Design, Hardware, PortRole, RegionClass, keen_role};
+use foveate_design::{CLASSES_PER_WORD, Design, PortRole, RegionClass, class_word, keen_role};
 
 /// Bits of the number of a word of the map, in terms of the grid. They are at least 1.
 const ADDRESS_BITS: &str = "(COLUMNS*ROWS > 32 ? $clog2((COLUMNS*ROWS+15)/16) : 1)";
@@ -27,13 +27,10 @@ pub(crate) fn first_map(design: &Design) -> Option<String> {
 
 /// Returns true if the design has a memory of classes whose first map has only normal regions.
 pub(crate) fn has_normal_map(design: &Design) -> bool {
-    let has_memory = match design.hardware() {
-        Hardware::Pipelined(_) => false,
-        Hardware::Serial(_) | Hardware::Raster(_) => true,
-    };
     let is_normal =
         |classes: &[RegionClass]| classes.iter().all(|&class| class == RegionClass::Normal);
-    has_memory && design.zones().is_some_and(|zones| is_normal(zones.configured_classes()))
+    design.has_class_memory()
+        && design.zones().is_some_and(|zones| is_normal(zones.configured_classes()))
 }
 
 fn columns(design: &Design) -> usize {
@@ -43,11 +40,8 @@ fn columns(design: &Design) -> usize {
 /// Returns the classes of a row of regions as a hexadecimal constant, that of the first region in
 /// the lowest bits.
 fn row_constant(classes: &[RegionClass]) -> String {
-    let digit = |pair: &[RegionClass]| {
-        let code = pair.iter().rev().fold(0, |digit, class| digit << 2 | u32::from(class.code()));
-        format!("{code:x}")
-    };
-    let digits: Vec<_> = classes.chunks(2).rev().map(digit).collect();
+    let digits: Vec<_> =
+        classes.chunks(2).rev().map(|pair| format!("{:x}", class_word(pair))).collect();
     format!("{}'h{}", 2 * classes.len(), digits.concat())
 }
 

@@ -9,7 +9,8 @@ use crate::class_map::{
 use crate::feature_parameters::{filter_number, parameter_prefix};
 use crate::frame_sync::{self, FrameSync};
 use crate::thresholds::{
-    ThresholdConstant, scores_text, summary_level_signal, threshold_constants, threshold_signal,
+    ThresholdConstant, ThresholdSignal, scores_text, summary_level_signal, threshold_constants,
+    threshold_signal,
 };
 use crate::verilog_text::{PortLine, module_file, rendered_text};
 use crate::{SourceFile, Top, banner};
@@ -346,7 +347,7 @@ fn level_inputs(design: RasterDesign<'_>) -> Vec<(String, String)> {
     ];
     for kind in Organization::Raster.feature_kinds() {
         if let Some(width) = level_bits(design, kind) {
-            let signal = |own: fn(&Design, PortRole) -> String| {
+            let signal = |own: ThresholdSignal| {
                 let given = design.feature(kind).map(|_| own(&design, PortRole::Level(kind)));
                 given.unwrap_or_else(|| format!("{width}'d0"))
             };
@@ -359,7 +360,7 @@ fn level_inputs(design: RasterDesign<'_>) -> Vec<(String, String)> {
 
 /// Returns the minima of all scores, that of the changed pixels last. `signal` returns the signal of
 /// a threshold.
-fn minima(design: RasterDesign<'_>, signal: fn(&Design, PortRole) -> String) -> Vec<String> {
+fn minima(design: RasterDesign<'_>, signal: ThresholdSignal) -> Vec<String> {
     let roles =
         features_in_core_order(design).into_iter().rev().map(|f| PortRole::MinScore(f.kind()));
     let roles = roles.chain([PortRole::TemporalMinCount]);

@@ -9,15 +9,16 @@ use crate::class_map::{
 use crate::feature_parameters::{filter_number, parameter_prefix};
 use crate::frame_sync::{self, FrameSync};
 use crate::thresholds::{
-    ThresholdConstant, scores_text, summary_level_signal, threshold_constants, threshold_signal,
+    ThresholdConstant, ThresholdSignal, scores_text, summary_level_signal, threshold_constants,
+    threshold_signal,
 };
 use crate::verilog_text::{PortLine, module_file, rendered_text};
 use crate::{SourceFile, Top, banner};
 use askama::Template;
 use foveate_design::{
-    Design, FeatureKind, FlowSearch, LaneMemoryKind, Neighborhood, Pipelining, PixelFeed, Port,
-    PortRole, RegionClass, SerialDesign, SerialTiming, SlotAreaKind, SpatialFeature,
-    ThresholdSource, VoteCombination, bits_for,
+    FeatureKind, FlowSearch, LaneMemoryKind, Neighborhood, Pipelining, PixelFeed, Port, PortRole,
+    RegionClass, SerialDesign, SerialTiming, SlotAreaKind, SpatialFeature, ThresholdSource,
+    VoteCombination, bits_for,
 };
 
 #[derive(Template)]
@@ -273,9 +274,6 @@ fn score_index(design: SerialDesign<'_>, kind: FeatureKind) -> (String, String) 
     let index = place.map_or(0, |place| place + 1);
     (format!("{}_INDEX", parameter_prefix(kind)), index.to_string())
 }
-
-/// A function that returns the signal of a threshold in the regions of a class.
-type ThresholdSignal = fn(&Design, PortRole) -> String;
 
 /// Returns the inputs of the array for the level of a feature, that of keen regions last, and the
 /// signals connected to them. The array has these inputs even if the design lacks the feature. The

@@ -23,6 +23,9 @@ pub(crate) fn scores_text(design: &Design) -> String {
     )
 }
 
+/// A function that returns the signal of a threshold in the regions of a class.
+pub(crate) type ThresholdSignal = fn(&Design, PortRole) -> String;
+
 /// Returns the input port of a threshold, or the constant that takes its place.
 pub(crate) fn threshold_signal(design: &Design, role: PortRole) -> String {
     match design.threshold_source() {

@@ -4,7 +4,7 @@
 
 use foveate_design::PortRole;
 
-use crate::{ThresholdInputs, ZoneInputs};
+use crate::{ClassMapInputs, ThresholdInputs, ZoneInputs};
 
 /// The inputs of a core at one clock edge. A field whose port the core does not have is ignored.
 #[derive(Clone, Copy, Debug)]
@@ -55,6 +55,12 @@ impl<'a> CoreInput<'a> {
     #[must_use]
     pub fn valid(pixels: &'a [u16], thresholds: &'a ThresholdInputs) -> Self {
         Self { valid: true, ..Self::idle(pixels, thresholds) }
+    }
+
+    /// Returns the inputs of the memory of classes. Without zones nothing is written.
+    #[must_use]
+    pub fn class_map(&self) -> ClassMapInputs {
+        self.zones.map(|zones| zones.map).unwrap_or_default()
     }
 }
 

@@ -122,9 +122,8 @@ impl<'a> SceneBuilder<'a> {
                 ..taken_frame(self.frame_source().noise_frame())
             };
             // The commit comes near the end of a frame, or while the next one begins or passes.
-            let frames = [frame(), frame()];
+            let [frame, next] = [frame(), frame()];
             let lines = height - self.random().up_to_u32(height / 4);
-            let [frame, next] = frames;
             traffic.send_frame_around(frame, lines, |traffic| {
                 self.write_map(traffic, &map, 0);
                 traffic.write(control, 1);

@@ -17,28 +17,22 @@ pub(super) struct LossyModel<'a> {
     screen: Option<Frame>,
     /// The regions of the last frame that were lost.
     lost: BTreeSet<u32>,
-    /// The map of classes, if it is not that of the configuration.
-    classes: Option<Vec<RegionClass>>,
 }
 
 impl<'a> LossyModel<'a> {
     pub(super) fn new(cameras: &'a [Camera]) -> Self {
         let model = FunctionalCamera::new(&cameras[0]);
-        Self { cameras, model, camera_index: 0, screen: None, lost: BTreeSet::new(), classes: None }
+        Self { cameras, model, camera_index: 0, screen: None, lost: BTreeSet::new() }
     }
 
     /// Forgets every frame. The map of classes stays.
     pub(super) fn reset(&mut self) {
-        let classes = self.classes.take();
-        *self = Self::new(self.cameras);
-        if let Some(classes) = classes {
-            self.set_classes(&classes);
-        }
+        let last = std::mem::replace(self, Self::new(self.cameras));
+        self.set_classes(last.model.classes());
     }
 
     /// Sets the map of classes of the next frames.
     pub(super) fn set_classes(&mut self, classes: &[RegionClass]) {
-        self.classes = Some(classes.to_vec());
         self.model.set_classes(classes).expect("a map has a class for each region");
     }
 
@@ -56,9 +50,7 @@ impl<'a> LossyModel<'a> {
     /// Returns the model in its state before the next frame, with the thresholds of `camera`.
     fn with_camera(&self, camera: &Camera) -> FunctionalCamera {
         let mut model = self.resumed_camera(camera);
-        if let Some(classes) = &self.classes {
-            model.set_classes(classes).expect("a map has a class for each region");
-        }
+        model.set_classes(self.model.classes()).expect("cameras have the same regions");
         model
     }
 

@@ -3,7 +3,7 @@
 //! memory of classes, and thresholds of regions that are keen or off.
 
 use super::random::Random;
-use foveate_design::{CLASSES_PER_WORD, Design, Hardware, RegionClass, class_word};
+use foveate_design::{CLASSES_PER_WORD, Design, RegionClass, class_word};
 use foveate_model::{ClassMapInputs, ThresholdInputs, ZoneInputs};
 use std::collections::VecDeque;
 
@@ -53,16 +53,13 @@ impl PortZones {
     /// zones.
     pub(super) fn of_design(design: &Design, lanes: usize) -> Option<Self> {
         let configured = design.zones()?.configured_classes();
-        let memory = match design.hardware() {
-            Hardware::Pipelined(_) => None,
-            Hardware::Serial(_) | Hardware::Raster(_) => Some(ClassMemoryWriter {
-                addresses: 1 << design.class_address_bits(),
-                held: Some(ClassChoice::Configured),
-                planned: VecDeque::new(),
-                is_loading: false,
-                inputs: ClassMapInputs::default(),
-            }),
-        };
+        let memory = design.has_class_memory().then(|| ClassMemoryWriter {
+            addresses: 1 << design.class_address_bits(),
+            held: Some(ClassChoice::Configured),
+            planned: VecDeque::new(),
+            is_loading: false,
+            inputs: ClassMapInputs::default(),
+        });
         let regions = if memory.is_some() { configured.len() } else { lanes };
         let normal = vec![RegionClass::Normal; regions];
         Some(Self {

@@ -201,7 +201,7 @@ impl RasterRcm {
     fn step_classes(&mut self, input: &CoreInput<'_>, has_advanced: bool) {
         let is_occupied = has_advanced || !self.advances.is_between_frames();
         if let Some(classes) = &mut self.classes {
-            classes.step(input.zones.map(|zones| zones.map).unwrap_or_default(), is_occupied);
+            classes.step(input.class_map(), is_occupied);
         }
     }
 

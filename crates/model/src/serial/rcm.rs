@@ -115,7 +115,7 @@ impl SerialRcm {
             } else {
                 self.advance_clocks(1);
             }
-            self.step_classes(input.zones.map(|zones| zones.map).unwrap_or_default());
+            self.step_classes(input.class_map());
         }
         self.update_output();
         &self.output
