@@ -2,6 +2,7 @@
 // The page: one source, one camera, and the display of both.
 
 import { Engine } from "./engine.js";
+import { engineOfText } from "./engine_text.js";
 import { Controls } from "./controls.js";
 import { withDepth } from "./depth.js";
 import { asPath, byId, copy, make, setText, withoutBackticks } from "./elements.js";
@@ -433,19 +434,8 @@ function addListeners() {
   pause(paused);
 }
 
-/** Returns the bytes of a base64 text that was compressed by gzip. */
-async function unpack(text) {
-  const compressed = Uint8Array.from(atob(text.trim()), letter => letter.charCodeAt(0));
-  const stream = new Blob([compressed]).stream().pipeThrough(new DecompressionStream("gzip"));
-  try {
-    return await new Response(stream).arrayBuffer();
-  } catch (error) {
-    throw new Error(`the engine in this page is damaged (${error.message}); fetch or write the page again`);
-  }
-}
-
 async function start() {
-  engine = await Engine.load(await unpack(byId("wasm").textContent));
+  engine = await Engine.load(await engineOfText(byId("wasm").textContent));
   byId("wasm").remove();
   tables = engine.describe();
   hardwareTable = JSON.parse(byId("hardware-table").textContent);

@@ -17,6 +17,9 @@ import pytest
 from PIL import Image
 from waiting import until
 
+# Python's digits of base 85, and those of the page (crates/view/src/base85.rs).
+PYTHON_DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%&()*+-;<=>?@^_`{|}~"
+PAGE_DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%()*+-.:;=?@[]^_{|}~"
 CHROMIUMS = ("chromium", "chromium-browser", "google-chrome", "chrome")
 
 
@@ -41,11 +44,13 @@ def visit(tmp_path):
     """Opens an address in a browser; what a page throws or its policy refuses fails the test."""
     contexts, wrong = [], []
 
-    def visit(browser, address, ready="!!window.foveate", permissions=(), **options):
+    def visit(browser, address, ready="!!window.foveate", permissions=(), before="", **options):
         context = browser.new_context(**{"viewport": {"width": 1280, "height": 800}, **options})
         context.set_default_timeout(8000)
         contexts.append(context)
         context.grant_permissions(["clipboard-read", "clipboard-write", *permissions])
+        # A script that runs before those of the page.
+        context.add_init_script(before)
         page = context.new_page()
         page.folder = str(tmp_path)
         page.on("pageerror", lambda error: wrong.append(str(error)))
@@ -99,13 +104,14 @@ def camera(visit, browser, page_file):
 
 @pytest.fixture
 def broken(visit, chromium, page_file, tmp_path):
-    """Opens the page with these bytes in place of the compressed engine."""
+    """Opens the page with these bytes, or this text, in place of the compressed engine."""
 
     def broken(data):
+        text = data if isinstance(data, str) else base64.b85encode(data).decode().translate(str.maketrans(PYTHON_DIGITS, PAGE_DIGITS))
         before, rest = page_file.read_text().split('id="wasm">', 1)
         after = rest.split("</script>", 1)[1]
         path = tmp_path / "broken.html"
-        path.write_text(f'{before}id="wasm">{base64.b64encode(data).decode()}</script>{after}')
+        path.write_text(f'{before}id="wasm">{text}</script>{after}')
         return visit(chromium, path.as_uri(), ready="!document.getElementById('notice').hidden")
 
     return broken

@@ -511,13 +511,23 @@ def test_every_refusal_says_what_to_do(still, error):
 
 @pytest.mark.parametrize(
     ("data", "message"),
-    [(gzip.compress(b"no engine", mtime=0), "foveate.wasm cannot be used here"), (b"cut", "the engine in this page is damaged")],
-    ids=["no engine", "damaged"],
+    [
+        (gzip.compress(b"no engine", mtime=0), "foveate.wasm cannot be used here"),
+        (b"cut", "the engine in this page is damaged"),
+        ("01<23", "a character is not of base 85"),
+        ("", "the engine in this page is damaged"),
+    ],
+    ids=["no engine", "damaged", "not base 85", "empty"],
 )
 def test_an_engine_that_does_not_load_is_told(broken, data, message):
     page = broken(data)
     shown(page, message)
     assert page.inner_text("#status") == "the engine did not start"
+
+
+def test_a_browser_that_cannot_unpack_the_engine_is_told(visit, chromium, page_file):
+    page = visit(chromium, page_file.as_uri(), ready="!document.getElementById('notice').hidden", before="delete globalThis.DecompressionStream")
+    shown(page, "use a browser of 2023 or later")
 
 
 # --- For everybody

@@ -15,13 +15,16 @@ use foveate_pictures::page::colour_variables;
 use foveate_pictures::palette::{DARK, LIGHT};
 use sha2::{Digest as _, Sha256};
 
+use crate::base85;
+
 macro_rules! web_files {
     ($($name:literal),* $(,)?) => { [$(include_str!(concat!("../web/", $name))),*] };
 }
 
 /// The modules of the page. Each comes after the modules that it imports.
-const MODULES: [&str; 22] = web_files![
+const MODULES: [&str; 23] = web_files![
     "engine.js",
+    "engine_text.js",
     "elements.js",
     "toml.js",
     "means.js",
@@ -83,7 +86,7 @@ fn module_part(module: &str) -> String {
 fn compressed(bytes: &[u8]) -> String {
     let mut gzip = GzEncoder::new(Vec::new(), Compression::best());
     let written = gzip.write_all(bytes).and_then(|()| gzip.finish());
-    BASE64.encode(written.expect("memory takes everything"))
+    base85::encode(&written.expect("memory takes everything"))
 }
 
 fn policy(script: &str, style: &str) -> String {

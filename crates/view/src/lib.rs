@@ -8,6 +8,7 @@
 //! frame when it has drawn the one before. The library never prints: its messages are fetched with
 //! [`View::take_messages`].
 
+mod base85;
 mod board;
 mod camera_page;
 mod connections;
