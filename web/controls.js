@@ -4,6 +4,7 @@
 
 import { make, withoutBackticks } from "./elements.js";
 import { getKey } from "./toml.js";
+import { heldValue, replacedKey } from "./zones.js";
 
 /** Keys by group, with their names on the page. Keys of features follow from the features. */
 const GROUPS = [
@@ -12,6 +13,7 @@ const GROUPS = [
   ["Changed in time: TRS", [["temporal.level", "Level"], ["temporal.min_count", "Least count"], ["temporal.reference", "Reference"]]],
   ["What the receiver sees", [["render.irrelevant", "Irrelevant"], ["periphery.blocks", "Means a side"], ["periphery.level", "Level of means"],
     ["render.payload", "Payload"]]],
+  ["Zones", "zones"],
 ];
 const OF_FEATURE = [["level", "Level"], ["min_score", "Least score"], ["mean_fraction_bits", "Mean bits"], ["radius", "Radius"]];
 
@@ -38,7 +40,17 @@ export class Controls {
   #groups(facts) {
     const rangeOf = key => facts.bounds[key] ?? this.#tables.keys.find(own => own.key === key && own.kind !== "text");
     const isShown = ([key]) => getKey(facts.config, key) !== undefined && getKey(facts.config, key) !== null && rangeOf(key);
-    return GROUPS.map(([title, rows]) => [title, rows === "features" ? this.#features(facts) : rows.filter(isShown)]);
+    const special = { features: () => this.#features(facts), zones: () => this.#zones(facts) };
+    return GROUPS.map(([title, rows]) => [title, typeof rows === "string" ? special[rows]() : rows.filter(isShown)]);
+  }
+
+  /** Makes a row for each threshold of keen regions, and for the levels of means. */
+  #zones({ config }) {
+    if (!config.zones) return [];
+    const ofFeature = config.spatial.flatMap(entry => OF_FEATURE.slice(0, 2).filter(([name]) => (entry[name] ?? null) !== null)
+      .map(([name, title]) => [`zones.keen.spatial.${entry.feature}.${name}`, `Keen ${title.toLowerCase()}`, entry.feature]));
+    const ofMeans = config.periphery ? [["zones.keen.periphery.level", "Keen means"], ["zones.off_level", "Means of off"]] : [];
+    return [...ofFeature, ["zones.keen.temporal.level", "Keen change"], ...ofMeans];
   }
 
   /** Makes a row to turn each feature on or off, and below it the rows of its keys. */
@@ -54,7 +66,7 @@ export class Controls {
 
   /** Makes a row with the key of the configuration and its values. */
   #help(key, feature) {
-    const plain = key.replace(/\.\d+\./, "."), { takes } = this.#tables.keys.find(own => own.key === plain);
+    const plain = key.replace(/\.\d+\./, ".").replace(`.${feature}.`, "."), { takes } = this.#tables.keys.find(own => own.key === plain);
     const unit = key.endsWith("min_score") ? `, in ${this.#tables.features.find(own => own.feature === feature).unit}` : "";
     return `${key}: ${takes}${unit}`;
   }
@@ -106,7 +118,7 @@ export class Controls {
   }
 
   #key(key, name, facts, feature) {
-    const rangeOf = own => own.bounds[key] ?? this.#tables.keys.find(known => known.key === key);
+    const rangeOf = own => own.bounds[replacedKey(own.config, key)] ?? this.#tables.keys.find(known => known.key === key);
     const title = feature ? `${name}, ${feature}` : name;
     const row = rangeOf(facts).kind === "choice" ? choice(key, name, title) : number(key, name, title);
     if (feature) row.element.classList.add("indented");
@@ -114,7 +126,7 @@ export class Controls {
     row.onchange(value => row.showMessage(this.#actions.change(key, value)));
     return { ...row, show: own => {
       row.showMessage();
-      row.set(getKey(own.config, key), rangeOf(own));
+      row.set(heldValue(own.config, key), rangeOf(own));
     } };
   }
 }

@@ -11,10 +11,13 @@ export function withDepth(config, bits, features) {
   const level = value => Math.floor(value * 2 ** (bits - oldBits));
   const score = (value, power) => power ? Math.ceil(value * 1e9 * 2 ** (power * (bits - oldBits))) / 1e9 : value;
   scaled.frame.pixel_bits = bits;
-  for (const part of [...scaled.spatial, scaled.temporal, scaled.periphery ?? {}]) {
+  const { keen = {}, off_level } = scaled.zones ?? {};
+  if (typeof off_level === "number") scaled.zones.off_level = level(off_level);
+  const keenParts = [...keen.spatial ?? [], keen.temporal ?? {}, keen.periphery ?? {}];
+  for (const part of [...scaled.spatial, scaled.temporal, scaled.periphery ?? {}, ...keenParts]) {
     if (typeof part.level === "number") part.level = level(part.level);
     const unit = features.find(({ feature }) => feature === part.feature)?.unit;
-    if (unit) part.min_score = score(part.min_score, POWERS.get(unit));
+    if (unit && typeof part.min_score === "number") part.min_score = score(part.min_score, POWERS.get(unit));
   }
   return scaled;
 }

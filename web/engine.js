@@ -137,6 +137,13 @@ class Camera {
     return this.#facts;
   }
 
+  /** Sets the class of every region from the next frame on: 0 normal, 1 off, 2 keen, 3 always. The camera must have zones. `facts` change. */
+  setClasses(codes) {
+    this.#engine.put(codes);
+    this.#call("foveate_classes");
+    this.#facts = Object.freeze(JSON.parse(this.#engine.text()));
+  }
+
   /** Takes a frame of 8-bit grey, with its time in microseconds since the first; without times, 30 frames per second.
    *  {number, active, actions, bits, skipped, srs, trs, recording}; recording is null, or {frames, bytes, full}. */
   step(grey, timeUs = -1) {

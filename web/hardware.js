@@ -11,8 +11,8 @@ const FOLD = 16;
 
 /** The columns of the table that identify the camera of a row. */
 function rowKey({ config }) {
-  const { region, frame, denoise, spatial, temporal, render, periphery } = config;
-  const isInTable = frame.pixel_bits === 8 && region.neighborhood === "isolated" && spatial.length === 1 && !spatial[0].mean_fraction_bits
+  const { region, frame, denoise, spatial, temporal, render, periphery, zones } = config;
+  const isInTable = !zones && frame.pixel_bits === 8 && region.neighborhood === "isolated" && spatial.length === 1 && !spatial[0].mean_fraction_bits
     && (render.payload === "denoised" || denoise.filter === "none");
   if (!isInTable) return null;
   const { irrelevant } = render;
@@ -38,7 +38,7 @@ export function showHardware(place, table, facts, features) {
     const note = make("p", { className: "quiet" }, make("small", { textContent: `${table.tool}; the clock is estimated from the netlist, 25 % either way. Thresholds are inputs of the core and change none of this.` }));
     place.replaceChildren(title, make("dl", {}, ...list), note);
   } else {
-    const command = estimateCommand(`{organization="${TABLE_ORGANIZATION}",sync=true}`, [width, height]);
+    const command = estimateCommand(`{organization="${TABLE_ORGANIZATION}",sync=true}`, [width, height], facts.config);
     place.replaceChildren(title, make("p", { textContent: "It is not in the table. With the copied TOML as camera.toml, this estimates it:" }), command);
   }
 }
@@ -51,10 +51,12 @@ function showOther(place, frame, { organization, config }, features) {
   const title = `The figures of this page are those of a raster core, which does not compute ${names}. This camera is a ${organization} array.`;
   place.replaceChildren(make("p", { textContent: title }),
     make("p", { textContent: `With the copied TOML as camera.toml, this estimates it for video of ${frame.join("x")}, with ${FOLD} regions per lane:` }),
-    estimateCommand(hardware, frame));
+    estimateCommand(hardware, frame, config));
 }
 
-function estimateCommand(hardware, [width, height]) {
-  const keys = [`'hardware=${hardware}'`, `frame.width=${width}`, `frame.height=${height}`];
+function estimateCommand(hardware, [width, height], { zones }) {
+  // The map belongs to frames of another size, and costs nothing.
+  const map = zones?.classes?.length ? ["'zones.classes=[]'"] : [];
+  const keys = [`'hardware=${hardware}'`, `frame.width=${width}`, `frame.height=${height}`, ...map];
   return make("pre", { textContent: `foveate estimate --config camera.toml ${keys.map(key => `--set ${key}`).join(" ")}`, tabIndex: 0 });
 }

@@ -5,6 +5,7 @@
 
 import { withFittingMeans } from "./means.js";
 import { keysOf, valueOf, withKey } from "./toml.js";
+import { mapOfText, textOfMap } from "./zones.js";
 
 const PAGE_KEYS = ["source", "size", "preset"];
 /** Settings of the network, as in `foveate infer`; its file stays on the computer where it was opened. */
@@ -14,10 +15,15 @@ const MAX_CHARACTERS = 8192;
 const isFeature = key => key.startsWith("spatial.");
 const isHardware = key => key.startsWith("hardware.");
 const ORGANIZATION_KEY = "hardware.organization";
+/** The map of zones, which is one text in place of a key for each row. */
+const MAP_KEY = "zones.classes";
+
+/** Returns a configuration with the map of its zones as a text. */
+const withMapText = config => config.zones ? { ...config, zones: { ...config.zones, classes: textOfMap(config.zones.classes ?? []) } } : config;
 
 /** Returns the fragment without `#`. `preset` is the configuration of that preset. */
 export function writeLink(pageSettings, preset, config, network) {
-  const presetValues = keysOf(preset), values = keysOf(config);
+  const presetValues = keysOf(preset), values = keysOf(withMapText(config));
   const differs = key => presetValues.get(key) !== values.get(key);
   const features = [...presetValues.keys(), ...values.keys()].some(key => isFeature(key) && differs(key));
   const hardware = differs(ORGANIZATION_KEY);
@@ -39,7 +45,7 @@ export function readLink(fragment) {
     const [, networkKey] = key.match(/^network\.(.+)$/) ?? [];
     if (PAGE_KEYS.includes(key)) pageSettings[key] = value;
     else if (NETWORK.includes(networkKey)) network[networkKey] = value;
-    else if (networkKey === undefined && /^[a-z_]+(\.\d+)?\.[a-z_]+$/.test(key)) changed.push([key, valueOf(value)]);
+    else if (networkKey === undefined && /^[a-z_]+((\.\d+)?\.[a-z_]+)+$/.test(key)) changed.push([key, valueOf(value)]);
     else throw new Error(`the link's \`${key}\` is not a setting; settings are source, size, preset, those of the network and keys of the configuration`);
   }
   const apply = preset => {
@@ -61,7 +67,7 @@ function decodeValue(key, text) {
 
 function setKey(config, key, value) {
   try {
-    return withKey(config, key, value);
+    return withKey(config, key, key === MAP_KEY ? mapOfText(String(value)) : value);
   } catch (error) {
     throw new Error(`\`${key}\`: ${error.message}`);
   }

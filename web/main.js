@@ -17,7 +17,8 @@ import { showReasons } from "./reasons.js";
 import { Recording } from "./recording.js";
 import { Screens } from "./screens.js";
 import { Clip, Computer, Pictures, Scene, Webcam } from "./sources.js";
-import { withKey, writeToml } from "./toml.js";
+import { writeToml } from "./toml.js";
+import { ZonePainter, withFittingMap, withHeldValue, withoutOtherFeatures } from "./zones.js";
 
 const SIZES = ["160x120", "224x224", "320x240", "640x480", "1280x720"];
 const DEFAULT_SIZE = "640x480";
@@ -37,7 +38,7 @@ let replacedHardware = null;
 let speed = 1, isStepRequested = false, startTime = null, lastExplanation = { at: 0, cost: 0 };
 /** The last two frames, which are shown again to a changed camera while the source is stopped. */
 let last = [];
-let screens, figures, controls, network;
+let screens, figures, controls, network, zones;
 const recording = new Recording(() => camera);
 
 // The last error, until the next try.
@@ -63,7 +64,7 @@ function sizeOf() {
 /** Makes the camera of a configuration, or throws the engine's message and leaves the camera as it was. */
 function configure(wantedConfig) {
   const { width, height } = sizeOf();
-  const newCamera = engine.configure(writeToml(wantedConfig), width, height);
+  const newCamera = engine.configure(writeToml(withFittingMap(wantedConfig, width, height)), width, height);
   recording.end();
   camera?.free();
   camera = newCamera;
@@ -71,6 +72,7 @@ function configure(wantedConfig) {
   means = config.periphery?.blocks ?? means;
   begin();
   screens.resize(camera.facts);
+  zones.show(camera.facts);
   controls.show(camera.facts, settings.preset);
   showHardware(byId("area"), hardwareTable, camera.facts, tables.features);
   setText("status", describe());
@@ -117,7 +119,7 @@ function changeKey(key, value) {
 /** Returns the configuration with another value of a key, and with the changes that follow from it. */
 function withChange(key, value) {
   if (key === "frame.pixel_bits" && Number.isInteger(value) && value > 0) return withDepth(config, value, tables.features);
-  const wish = withKey(config, key, value);
+  const wish = withHeldValue(config, key, value);
   // The number of means that the last side did not allow returns with a side that it divides.
   if (key === "region.size" && wish.periphery) wish.periphery.blocks = means;
   return withFittingMeans(wish, [key]);
@@ -133,7 +135,7 @@ function toggleFeature(feature, on) {
   const spatial = on ? [...others, added].sort((a, b) => order.indexOf(a.feature) - order.indexOf(b.feature)) : others;
   if (!spatial.length) return `a camera needs a feature; turn another on first, then ${feature} off`;
   return messageOf(() => {
-    const { hardware } = config, wish = withOrganization({ ...config, spatial }, tables.features, replacedHardware);
+    const { hardware } = config, wish = withOrganization(withoutOtherFeatures({ ...config, spatial }), tables.features, replacedHardware);
     configure(wish);
     if (wish.hardware === replacedHardware) replacedHardware = null;
     else if (wish.hardware !== hardware) replacedHardware = hardware;
@@ -151,13 +153,43 @@ function choosePreset(name) {
     const previous = settings.preset;
     settings.preset = name;
     try {
-      configure(presetConfig(name));
+      // The painted map stays.
+      const map = config.zones?.classes;
+      configure({ ...presetConfig(name), ...(map && { zones: { classes: map } }) });
       replacedHardware = null;
     } catch (error) {
       settings.preset = previous;
       throw error;
     }
   });
+}
+
+// --- Zones
+
+/** Gives the camera the class of every region. A camera without zones gets some first. */
+function applyZones(codes) {
+  notice(messageOf(() => {
+    if (!config.zones) configure({ ...config, zones: {} });
+    camera.setClasses(codes);
+    config = withoutSize(camera.facts.config);
+    zones.show(camera.facts);
+    screens.showZones(camera.facts);
+    if (last.length) screens.paint(camera);
+    setText("status", describe());
+    storeLink();
+  }));
+}
+
+/** Shows the last frames with the new map while the source is stopped. */
+function endStroke() {
+  if (!paused || !last.length) return;
+  begin();
+  repeatFrames();
+}
+
+function clearZones() {
+  const { zones: gone, ...others } = config;
+  notice(messageOf(() => configure(others)));
 }
 
 // --- The source
@@ -446,7 +478,8 @@ async function start() {
     made.free();
     return { name, summary, config: withoutSize(config) };
   });
-  screens = new Screens(() => explain(performance.now(), true));
+  zones = new ZonePainter(byId("zones"), { apply: applyZones, end: endStroke, clear: clearZones });
+  screens = new Screens(() => explain(performance.now(), true), zones);
   figures = new Figures();
   network = new NetworkView(engine.module, { camera: () => camera, source: inputsOfCommand, onchange: storeLink });
   controls = new Controls(byId("controls"), tables, { presets, change: changeKey, toggle: toggleFeature, preset: choosePreset });

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The three screens of the page, and the region that is chosen in them.
+// The three screens of the page, the region that is chosen in them, and strokes of a brush for zones.
+
+import { CLASSES, classesOf } from "./zones.js";
 
 /** What a region shows, by its byte (bit 0 SRS, bit 1 TRS, above them what became of it: 0 sent, 1 held, 2 black, 3 means), the
  *  colour that stands for it, and how much of the picture that covers. */
@@ -39,11 +41,12 @@ function addArrow(path, x, y, dx, dy, width) {
 }
 
 export class Screens {
-  #facts = null; #chosen = null; #views = {}; #tints; #overlay; #arrows; #choose;
+  #facts = null; #chosen = null; #views = {}; #tints; #classTints; #overlay; #zones; #arrows; #choose; #painter; #painted = null;
 
-  /** `choose` is called with a region when the user chooses one. */
-  constructor(choose) {
+  /** `choose` is called with a region when the user chooses one. A `painter` whose brush is on gets the strokes. */
+  constructor(choose, painter) {
     this.#choose = choose;
+    this.#painter = painter;
     for (const id of PARTS) {
       const place = document.getElementById(id), canvas = document.createElement("canvas"), cursor = document.createElement("div");
       cursor.className = "cursor";
@@ -51,10 +54,12 @@ export class Screens {
       place.append(canvas, cursor);
       Object.assign(place, { tabIndex: 0, role: "application" });
       place.onclick = event => this.#chooseAt(event, place);
+      this.#addBrush(place);
       place.onkeydown = event => this.#handleKey(event);
       this.#views[id] = { place, canvas, cursor, context: canvas.getContext("2d") };
     }
     this.#overlay = document.createElement("canvas").getContext("2d");
+    this.#zones = document.createElement("canvas").getContext("2d");
     this.#arrows = document.createElement("canvas").getContext("2d");
     this.#arrows.canvas.className = "arrows";
     this.#views.decisions.canvas.after(this.#arrows.canvas);
@@ -78,6 +83,19 @@ export class Screens {
       const kind = KINDS.find(([, , applies]) => applies(byte));
       return kind ? colourWord(kind[1], kind[3]) : 0;
     });
+    this.#classTints = Uint32Array.from(CLASSES, ({ colour, alpha }) => colour ? colourWord(colour, alpha) : 0);
+    if (this.#facts) this.showZones(this.#facts);
+  }
+
+  /** Shows the classes of the regions of a camera on the picture of what it sees. */
+  showZones(facts) {
+    this.#facts = facts;
+    const canvas = this.#zones.canvas, hasZones = Boolean(facts.config.zones?.classes?.length);
+    Object.assign(canvas, { width: hasZones ? facts.columns : 1, height: hasZones ? facts.rows : 1 });
+    if (!hasZones) return;
+    const data = new ImageData(facts.columns, facts.rows), words = new Uint32Array(data.data.buffer);
+    for (const [region, code] of classesOf(facts).entries()) words[region] = this.#classTints[code];
+    this.#zones.putImageData(data, 0, 0);
   }
 
   /** Sets the sizes to the frames and the grid of a camera. */
@@ -95,6 +113,7 @@ export class Screens {
     Object.assign(this.#overlay.canvas, { width: columns, height: rows });
     this.#overlay.data = new ImageData(columns, rows);
     this.#overlay.words = new Uint32Array(this.#overlay.data.data.buffer);
+    this.showZones(facts);
     if (this.#chosen) this.choose(Math.min(this.#chosen.x, columns - 1), Math.min(this.#chosen.y, rows - 1));
     this.#label();
   }
@@ -107,11 +126,12 @@ export class Screens {
     const { words, data } = this.#overlay, regions = camera.regions;
     for (let region = 0; region < words.length; region++) words[region] = this.#tints[regions[region] & 15];
     this.#overlay.putImageData(data, 0, 0);
-    const { context } = decisions;
-    context.putImageData(input.data, 0, 0);
+    decisions.context.putImageData(input.data, 0, 0);
     // The last column and row of regions may reach beyond the frame.
-    context.imageSmoothingEnabled = false;
-    context.drawImage(this.#overlay.canvas, 0, 0, columns * side, rows * side);
+    for (const [{ context }, { canvas }] of [[decisions, this.#overlay], [input, this.#zones]]) {
+      context.imageSmoothingEnabled = false;
+      context.drawImage(canvas, 0, 0, columns * side, rows * side);
+    }
     this.#paintArrows(camera.displacements);
   }
 
@@ -165,15 +185,52 @@ export class Screens {
     }
   }
 
-  #chooseAt(event, place) {
-    if (!this.#facts) return;
+  /** Returns the region under the pointer. */
+  #regionAt(event, place) {
     const { width, height, side } = this.#facts, box = place.getBoundingClientRect();
     const regionIndex = (offset, length, size) => Math.floor(Math.min(Math.max(offset / length, 0), 0.999999) * size / side);
-    this.choose(regionIndex(event.clientX - box.left, box.width, width), regionIndex(event.clientY - box.top, box.height, height));
+    return { x: regionIndex(event.clientX - box.left, box.width, width), y: regionIndex(event.clientY - box.top, box.height, height) };
+  }
+
+  #chooseAt(event, place) {
+    if (!this.#facts || this.#painter.isOn) return;
+    const { x, y } = this.#regionAt(event, place);
+    this.choose(x, y);
     this.#choose(this.#chosen);
   }
 
+  /** Gives the strokes of the pointer to the painter while its brush is on. */
+  #addBrush(place) {
+    const paint = event => {
+      const region = this.#regionAt(event, place);
+      this.#painter.stroke(this.#painted ?? region, region);
+      this.#painted = region;
+    };
+    const end = () => {
+      if (!this.#painted) return;
+      this.#painted = null;
+      this.#painter.end();
+    };
+    place.onpointerdown = event => {
+      if (!this.#facts || !this.#painter.isOn || event.button !== 0) return;
+      event.preventDefault();
+      place.focus();
+      place.setPointerCapture(event.pointerId);
+      paint(event);
+    };
+    place.onpointermove = event => { if (this.#painted) paint(event); };
+    place.onpointerup = place.onpointercancel = end;
+    // A finger that paints does not scroll.
+    place.addEventListener("touchstart", event => { if (this.#painter.isOn) event.preventDefault(); }, { passive: false });
+  }
+
   #handleKey(event) {
+    if (event.key === "Enter" && this.#chosen && this.#painter.isOn) {
+      event.preventDefault();
+      this.#painter.stroke(this.#chosen, this.#chosen);
+      this.#painter.end();
+      return;
+    }
     const move = ARROWS.get(event.key);
     if (!move || !this.#facts) return;
     event.preventDefault();

@@ -21,10 +21,18 @@ function setOwn(table, name, value) {
   Object.defineProperty(table, name, { value, writable: true, enumerable: true, configurable: true });
 }
 
+const definedEntries = table => Object.entries(table).filter(([, value]) => value !== null && value !== undefined);
+
+/** Returns a value as TOML in one line. */
+function valueText(value) {
+  if (Array.isArray(value)) return `[${value.map(valueText).join(", ")}]`;
+  if (typeof value !== "object") return JSON.stringify(value);
+  return `{ ${definedEntries(value).map(([key, inner]) => `${key} = ${valueText(inner)}`).join(", ")} }`;
+}
+
 /** Returns the TOML of a configuration. */
 export function writeToml(config) {
-  const definedEntries = table => Object.entries(table).filter(([, value]) => value !== null && value !== undefined);
-  const lines = table => definedEntries(table).map(([key, value]) => `${key} = ${JSON.stringify(value)}\n`).join("");
+  const lines = table => definedEntries(table).map(([key, value]) => `${key} = ${valueText(value)}\n`).join("");
   const tableText = ([name, value]) => Array.isArray(value)
     ? value.map(table => `[[${name}]]\n${lines(table)}`).join("\n")
     : `[${name}]\n${lines(value)}`;

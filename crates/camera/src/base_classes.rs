@@ -14,6 +14,19 @@ pub(crate) enum BaseClasses {
     OfPixels(Vec<Vec<RegionClass>>),
 }
 
+impl ZonesConfig {
+    /// Sets the class of every region of a frame with `columns` regions per row, row by row. The
+    /// image, the classes and the areas that were there before are gone.
+    pub fn set_classes(&mut self, classes: &[RegionClass], columns: u32) {
+        let is_normal = |&class: &RegionClass| class == RegionClass::Normal;
+        self.classes = match classes.iter().all(is_normal) {
+            true => Vec::new(),
+            false => text_of_classes(classes, columns),
+        };
+        (self.map, self.areas) = (None, Vec::new());
+    }
+}
+
 impl BaseClasses {
     /// Checks the classes of a configuration whose frame has `width` x `height` pixels.
     pub(crate) fn resolve(
@@ -101,6 +114,7 @@ fn classes_of_row(row: usize, text: &str) -> Result<Vec<RegionClass>, ConfigErro
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::AreaConfig;
 
     fn config(classes: &[&str], size: Option<(u32, u32)>) -> CameraConfig {
         let mut config = CameraConfig::default();
@@ -136,6 +150,23 @@ mod tests {
         let zones = camera.config().zones.as_ref().unwrap();
         assert_eq!((zones.classes.as_slice(), zones.areas.len()), (&["21".to_owned()][..], 0));
         assert_eq!(camera.config().validate().unwrap(), camera);
+    }
+
+    #[test]
+    fn a_map_replaces_classes_and_areas() {
+        let mut config = config(&["01", "23"], Some((8, 8)));
+        let zones = config.zones.as_mut().unwrap();
+        zones.map = Some("map.png".to_owned());
+        zones.areas.push(AreaConfig {
+            class: RegionClass::Off,
+            rectangle: Some([0, 0, 8, 8]),
+            polygon: None,
+        });
+        let map = [3, 0, 2, 1].map(|code| RegionClass::from_code(code).unwrap());
+        zones.set_classes(&map, 2);
+        assert_eq!(codes(&config), [3, 0, 2, 1]);
+        config.zones.as_mut().unwrap().set_classes(&[RegionClass::Normal; 4], 2);
+        assert_eq!(config.zones, Some(ZonesConfig::default()));
     }
 
     #[test]

@@ -38,7 +38,7 @@ pub fn read<C: TomlConfig, S: AsRef<str>>(text: &str, overrides: &[S]) -> Result
     // The text is changed by what the overrides imply, and overridden again.
     keys::refuse_unknown(&C::keys().collect::<Vec<_>>(), &written)?;
     if hides_means {
-        written.remove("periphery");
+        remove_levels_of_means(&mut written);
     }
     if let Some(bits) = depth {
         written = scaled_table(written, bits)?;
@@ -69,7 +69,7 @@ impl CameraConfig {
     /// Thresholds in grey levels belong to the depth that they are written with: an override of
     /// `frame.pixel_bits` scales the thresholds of the text. Thresholds in other overrides are not
     /// scaled. An override of `render.irrelevant` with another value than `"mean"` removes the table
-    /// `periphery` of the text, which has a meaning only with means.
+    /// `periphery` of the text and the levels of means in `zones`, which have a meaning only with means.
     ///
     /// # Errors
     /// Returns the errors of [`CameraConfig::from_toml`], and an error for an override that is not
@@ -82,6 +82,17 @@ impl CameraConfig {
     #[must_use]
     pub fn to_toml(&self) -> String {
         write(self)
+    }
+}
+
+/// Removes the keys that have a meaning only with means.
+fn remove_levels_of_means(written: &mut Table) {
+    written.remove("periphery");
+    if let Some(Value::Table(zones)) = written.get_mut("zones") {
+        zones.remove("off_level");
+        if let Some(Value::Table(keen)) = zones.get_mut("keen") {
+            keen.remove("periphery");
+        }
     }
 }
 

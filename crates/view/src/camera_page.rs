@@ -22,12 +22,13 @@ macro_rules! web_files {
 }
 
 /// The modules of the page. Each comes after the modules that it imports.
-const MODULES: [&str; 23] = web_files![
+const MODULES: [&str; 24] = web_files![
     "engine.js",
     "engine_text.js",
     "elements.js",
     "toml.js",
     "means.js",
+    "zones.js",
     "link.js",
     "depth.js",
     "organization.js",

@@ -140,6 +140,16 @@ pub enum WebError {
         /// The number of rows of regions.
         rows: u32,
     },
+    /// A number is not that of a class of regions.
+    #[error(
+        "region {region} has the class {code}; classes are 0 (normal), 1 (off), 2 (keen) and 3 (always)"
+    )]
+    NoSuchClass {
+        /// The number of the region, row by row.
+        region: usize,
+        /// The number in place of a class.
+        code: u8,
+    },
     /// The camera has seen no frame yet.
     #[error("the camera has seen no frame yet; show it one first")]
     NoFrameYet,

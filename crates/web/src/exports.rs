@@ -172,6 +172,20 @@ pub extern "C" fn foveate_configure(width: u32, height: u32) -> i32 {
     })
 }
 
+/// Sets the classes of the regions of a camera with zones, from the next frame on. The input buffer
+/// has the number of a class per region. Answers with the facts about the camera, as JSON.
+#[unsafe(no_mangle)]
+pub extern "C" fn foveate_classes(handle: u32) -> i32 {
+    with_page_state(|counter| {
+        let PageState { desk, input, .. } = &mut *counter;
+        let facts = desk.set_classes(handle, input).map(|facts| {
+            counter.set_answer(facts.to_string());
+            0
+        });
+        counter.answer_number(facts)
+    })
+}
+
 /// Shows a camera the frame of 8-bit grey in the input buffer. `time_us` is the time since the
 /// first frame in microseconds; if it is negative, there are 30 frames per second. Answers with
 /// what the camera sends, as JSON.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! One camera of a page: it takes frames and holds the results of the last one.
 
+use foveate_camera::RegionClass;
 use foveate_design::{Design, RegionAction};
 use foveate_engine::{Engine, EventFrame, EventTable, RegionStateBefore};
 use foveate_frame::{Frame, FramePixels, append_luma_of_rgba};
@@ -29,6 +30,8 @@ pub struct LiveCamera {
     input: Vec<u8>,
     screen: Vec<u8>,
     regions: Vec<u8>,
+    /// The classes of the regions in the last frame; empty for a camera without zones.
+    frame_classes: Vec<RegionClass>,
     displacements: Vec<i8>,
 }
 
@@ -79,6 +82,7 @@ impl LiveCamera {
             input: Vec::new(),
             screen: Vec::new(),
             regions: Vec::new(),
+            frame_classes: Vec::new(),
             displacements: Vec::new(),
             depth,
             design,
@@ -108,6 +112,26 @@ impl LiveCamera {
             *recording = recording.emptied();
         }
         self.clear_frame();
+    }
+
+    /// Sets the class of every region from the next frame on, and in the configuration of the camera.
+    /// `codes` has a byte per region, the number of its class. References and the screen stay.
+    ///
+    /// # Errors
+    /// Fails if a number is not that of a class, if there is not one per region, or if the camera has
+    /// no zones. Nothing has changed then.
+    pub fn set_classes(&mut self, codes: &[u8]) -> Result<(), WebError> {
+        let class = |(region, &code)| {
+            RegionClass::from_code(code).ok_or(WebError::NoSuchClass { region, code })
+        };
+        let classes: Vec<_> = codes.iter().enumerate().map(class).collect::<Result<_, _>>()?;
+        self.engine.set_classes(&classes)?;
+        let mut config = self.design.config().clone();
+        if let Some(zones) = &mut config.camera.zones {
+            zones.set_classes(&classes, self.design.columns());
+            self.design = config.validate()?;
+        }
+        Ok(())
     }
 
     /// Makes the screen and the input black and removes all decisions, as before the first frame.
@@ -165,6 +189,8 @@ impl LiveCamera {
     /// Shows the engine the frame in `grey`.
     fn step(&mut self, time_us: Option<u64>) -> Result<FrameSummary, WebError> {
         let stride = self.design.width() as usize;
+        self.frame_classes.clear();
+        self.frame_classes.extend_from_slice(self.engine.classes());
         self.depth.to_camera(&self.grey, &mut self.pixels);
         match &self.pixels {
             CameraPixels::Bytes(pixels) => self.engine.step_u8(pixels, stride)?,
@@ -236,6 +262,9 @@ impl LiveCamera {
         };
         let region = y * columns + x;
         let mut model = FunctionalCamera::resume(design, &frame(shown.to_words()), remembered)?;
+        if design.zones().is_some() {
+            model.set_classes(&self.frame_classes)?;
+        }
         let before = model.region_memory(region);
         let outcome = model.step(&frame(self.pixels.plane().to_words()))?;
         let moment = explanation::FrameIdentification {

@@ -56,6 +56,17 @@ impl PageCameras {
         camera.ok_or(WebError::NoSuchCamera { handle })
     }
 
+    /// Sets the classes of the regions of a camera, as [`LiveCamera::set_classes`] does. Returns the
+    /// facts about the camera.
+    ///
+    /// # Errors
+    /// Fails if there is no such camera, or if the classes are refused.
+    pub fn set_classes(&mut self, handle: u32, codes: &[u8]) -> Result<Value, WebError> {
+        let camera = self.camera(handle)?;
+        camera.set_classes(codes)?;
+        Ok(facts::camera_facts(camera.design()))
+    }
+
     /// Ends a camera.
     ///
     /// # Errors

@@ -270,6 +270,13 @@ fn an_override_that_shows_no_means_removes_the_periphery_of_the_text() {
         let refused = with(text, &[&shown, "periphery.level=2"]).unwrap_err().to_string();
         assert!(refused.contains("`periphery.level` = 2 cannot be combined"), "{refused}");
     }
+    // So do the levels that zones have for means; their other keys stay.
+    let zones =
+        "[zones]\noff_level = 9\nkeen = { temporal = { level = 3 }, periphery = { level = 2 } }\n";
+    assert_eq!(
+        with(&format!("{text}{zones}"), &["render.irrelevant=hold"]).unwrap(),
+        with("", &["render.irrelevant=hold", "zones.keen.temporal.level=3"]).unwrap()
+    );
     let whole_table = with(text, &["render={irrelevant='hold'}"]).unwrap();
     assert_eq!(whole_table, with("", &["render.irrelevant=hold"]).unwrap());
     let misspelt = text.replace("level", "levle");

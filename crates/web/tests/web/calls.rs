@@ -3,11 +3,11 @@
 //! and never a panic.
 
 use foveate_web::exports::{
-    foveate_configure, foveate_describe, foveate_displacements, foveate_events, foveate_explain,
-    foveate_free, foveate_hash, foveate_input, foveate_length, foveate_network_file,
-    foveate_network_look, foveate_network_open, foveate_pixels, foveate_record, foveate_regions,
-    foveate_rendered, foveate_reset, foveate_scene, foveate_scores, foveate_screen, foveate_seen,
-    foveate_step_grey, foveate_step_rgba,
+    foveate_classes, foveate_configure, foveate_describe, foveate_displacements, foveate_events,
+    foveate_explain, foveate_free, foveate_hash, foveate_input, foveate_length,
+    foveate_network_file, foveate_network_look, foveate_network_open, foveate_pixels,
+    foveate_record, foveate_regions, foveate_rendered, foveate_reset, foveate_scene,
+    foveate_scores, foveate_screen, foveate_seen, foveate_step_grey, foveate_step_rgba,
 };
 
 /// A generator of random numbers, the same in every run.
@@ -40,7 +40,7 @@ fn any_calls_in_any_order_are_answered() {
         assert_ne!(foveate_input(bytes), 0);
         let time = [-1.0, 0.0, 40.7, f64::NAN, f64::INFINITY, 1e300][random.below(6) as usize];
         let side = [12, 12, 12, 17, 0][random.below(5) as usize];
-        let answer = match random.below(24) {
+        let answer = match random.below(25) {
             0 => {
                 foveate_input(0);
                 foveate_configure(side, if side == 17 { 9 } else { 12 })
@@ -64,6 +64,7 @@ fn any_calls_in_any_order_are_answered() {
             21 => foveate_network_open(side, x, random.number(17)),
             22 => foveate_network_look(),
             23 => foveate_displacements(handle),
+            24 => foveate_classes(handle),
             14 => foveate_step_rgba(handle, time),
             _ => foveate_step_grey(handle, time),
         };

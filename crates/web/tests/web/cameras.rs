@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tests that a page computes what the model computes, and that the facts about a camera are true.
 
+use foveate_camera::RegionClass;
 use foveate_design::{DesignConfig, PRESETS};
 use foveate_frame::{Frame, convert_depth, luma};
 use foveate_model::FunctionalCamera;
@@ -36,6 +37,12 @@ pub(crate) fn configurations() -> Vec<String> {
             "render.irrelevant=\"mean\"",
             "periphery.blocks=4",
             "region.neighborhood=\"shared\"",
+        ],
+        &[
+            ALL,
+            SERIAL,
+            "render.irrelevant=\"mean\"",
+            "zones={off_level=9,keen={temporal={level=3},spatial=[{feature=\"edge\",min_score=2}]},areas=[{class=\"off\",rectangle=[0,0,20,30]},{class=\"keen\",rectangle=[20,8,16,16]},{class=\"always\",rectangle=[40,30,9,9]}]}",
         ],
         &[
             "frame.pixel_bits=16",
@@ -203,5 +210,46 @@ fn what_is_described_can_be_asked_for() {
         ("periphery.level", 4),
     ] {
         assert_eq!(key(name)["default"], default, "{name}");
+    }
+}
+
+/// Returns the classes of frame `number`, as numbers; the first map has regions of every class.
+pub(crate) fn classes(regions: u32, number: u32) -> Vec<u8> {
+    (0..regions).map(|region| ((region * 7 + number * 3) % 5 % 4) as u8).collect()
+}
+
+#[test]
+fn a_map_holds_from_the_next_frame_on_and_is_in_the_configuration() {
+    for more in ["", "[render]\nirrelevant = \"mean\"\n", "[temporal]\nreference = \"last-sent\"\n"]
+    {
+        let toml = format!("{more}[zones]\nkeen = {{ temporal = {{ level = 2 }} }}\n");
+        let mut desk = PageCameras::default();
+        let (handle, _) = desk.configure(toml.as_bytes(), SIZE).unwrap();
+        let design = desk.camera(handle).unwrap().design().clone();
+        let mut model = FunctionalCamera::new(&design);
+        for number in 0..6 {
+            if number % 2 == 1 {
+                let codes = classes(design.regions(), number);
+                let facts = desk.set_classes(handle, &codes).unwrap();
+                let digits: String = codes.iter().map(u8::to_string).collect();
+                let rows = &facts["config"]["zones"]["classes"];
+                let rows: String =
+                    rows.as_array().unwrap().iter().flat_map(|row| row.as_str()).collect();
+                assert_eq!(rows, digits);
+                let own = DesignConfig::from_toml(facts["toml"].as_str().unwrap()).unwrap();
+                assert_eq!(&own.validate().unwrap(), desk.camera(handle).unwrap().design());
+                let classes = codes.iter().map(|&code| RegionClass::from_code(code).unwrap());
+                model.set_classes(&classes.collect::<Vec<_>>()).unwrap();
+            }
+            let grey = grey(&mut desk, number * 3);
+            let expected = model.step(&frame(&grey, 8)).unwrap();
+            let camera = desk.camera(handle).unwrap();
+            camera.step_grey(&grey, None).unwrap();
+            assert_eq!(camera.engine().outcome().actions, expected.actions, "{toml} {number}");
+            assert_eq!(camera.engine().rendered().to_words(), expected.rendered.pixels());
+        }
+        let normal = vec![0; design.regions() as usize];
+        let facts = desk.set_classes(handle, &normal).unwrap();
+        assert_eq!(facts["config"]["zones"].get("classes"), None);
     }
 }

@@ -2,7 +2,7 @@
 //! Tests that the engine's explanation of the last frame equals that of the model, which has seen
 //! every frame.
 
-use crate::cameras::{SIZE, configurations, frame, grey};
+use crate::cameras::{SIZE, classes, configurations, frame, grey};
 use foveate_model::FunctionalCamera;
 use foveate_model::explanation::{FrameIdentification, RegionExplanation};
 use foveate_web::PageCameras;
@@ -59,4 +59,23 @@ fn what_is_not_there_cannot_be_explained() {
     assert!(camera.explain((7, 5), "").is_ok());
     camera.reset();
     assert!(refused(camera, (0, 0)).contains("no frame yet"));
+}
+
+#[test]
+fn a_frame_is_explained_with_the_classes_that_it_had() {
+    let mut desk = PageCameras::default();
+    let (handle, _) = desk.configure(b"[zones]\n", SIZE).unwrap();
+    let regions = desk.camera(handle).unwrap().design().regions();
+    desk.set_classes(handle, &classes(regions, 0)).unwrap();
+    let grey = grey(&mut desk, 0);
+    desk.camera(handle).unwrap().step_grey(&grey, None).unwrap();
+    let explain =
+        |desk: &mut PageCameras| desk.camera(handle).unwrap().explain((3, 0), "").unwrap();
+    let before = explain(&mut desk);
+    assert!(before.to_string().contains("off"), "{before}");
+    // The map of the next frame does not change what is said about the last one.
+    desk.set_classes(handle, &vec![3; regions as usize]).unwrap();
+    let fingerprint = before.design_fingerprint.clone();
+    let after = RegionExplanation { design_fingerprint: fingerprint, ..explain(&mut desk) };
+    assert_eq!(after, before);
 }

@@ -46,6 +46,21 @@ fn frames_of_another_length_change_nothing() {
 }
 
 #[test]
+fn maps_that_do_not_fit_change_nothing() {
+    let mut desk = PageCameras::default();
+    let (handle, _) = desk.configure(b"[zones]\nclasses = [\"12\"]\n", (16, 8)).unwrap();
+    let (plain, _) = desk.configure(b"", (16, 8)).unwrap();
+    assert!(refused(desk.set_classes(handle, &[0, 4])).contains("region 1 has the class 4"));
+    assert!(refused(desk.set_classes(handle, &[0; 3])).contains("3 classes, but the camera has 2"));
+    assert!(refused(desk.set_classes(plain, &[0, 1])).contains("the camera has no zones"));
+    assert!(refused(desk.set_classes(7, &[0, 1])).contains("no camera number 7"));
+    let camera = desk.camera(handle).unwrap();
+    assert_eq!(camera.design().config().camera.zones.as_ref().unwrap().classes, ["12"]);
+    assert_eq!(camera.engine().classes().len(), 2);
+    assert!(desk.set_classes(plain, &[0, 0]).is_ok());
+}
+
+#[test]
 fn the_number_of_cameras_is_limited_and_they_can_be_removed() {
     let mut desk = PageCameras::default();
     let all: Vec<u32> = (0..MAX_CAMERAS).map(|_| desk.configure(b"", (8, 8)).unwrap().0).collect();
