@@ -9,6 +9,7 @@ mod arrays;
 mod arrow;
 mod bandwidth;
 mod canvas;
+mod class_marks;
 mod clock_files;
 mod csv;
 mod data_set;

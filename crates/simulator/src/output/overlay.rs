@@ -4,7 +4,7 @@
 //!
 //! The colours are those of the palette. Active regions also have an outline. An arrow shows the
 //! displacement of a region, bright if `flow` votes for the region and faint otherwise. Without
-//! scores it is bright if the region is relevant.
+//! scores it is bright if the region is relevant. Classes of regions have marks and a legend.
 
 use foveate_camera::{Camera, Displacement, RegionAction};
 use foveate_frame::{ByteFrame, convert_depth};
@@ -13,6 +13,7 @@ use foveate_pictures::palette::{ACTIVE, ACTIVE_BRIGHT, CHANGED, Colour, RELEVANT
 use super::activity_chart::ActivityChart;
 use super::arrow::Arrow;
 use super::canvas::{PictureCanvas, PictureLayout, TEXT};
+use super::class_marks::{ClassMarks, draw_class_legend};
 use super::font;
 use super::picture_series::PicturePainter;
 use super::raw_image::to_byte;
@@ -44,14 +45,23 @@ impl PicturePainter for OverlayPainter {
     fn paint(&mut self, sink_frame: &SinkFrame<'_>) -> PictureCanvas {
         let frame = &sink_frame.source.frame;
         let layout = PictureLayout::of_camera(sink_frame.camera);
-        let legend = (font::SIZE.1 + 4) * layout.dot;
+        let line = (font::SIZE.1 + 4) * layout.dot;
+        let has_classes = ClassMarks::are_possible(sink_frame.camera);
+        let legend = if has_classes { 2 * line } else { line };
         let height = layout.frame_height + legend + ActivityChart::HEIGHT_DOTS * layout.dot;
         let mut canvas = PictureCanvas::new(layout.width, height);
         draw_frame(&mut canvas, frame, sink_frame, layout);
+        if let Some(marks) = ClassMarks::of_frame(sink_frame) {
+            marks.draw(&mut canvas, sink_frame.camera.region_size() * layout.scale, layout);
+        }
         draw_arrows(&mut canvas, sink_frame, layout, self.has_scores);
         let regions = sink_frame.camera.regions();
         let active = sink_frame.outcome.active.iter().map(|&bit| u32::from(bit)).sum();
         draw_legend(&mut canvas, layout, active, sink_frame.camera);
+        if has_classes {
+            let top = layout.frame_height + line + 2 * layout.dot;
+            draw_class_legend(&mut canvas, layout, top, sink_frame.camera);
+        }
         self.activity_chart
             .push(active.into(), (layout.width / ActivityChart::bar_width(layout)) as usize);
         self.activity_chart.draw(&mut canvas, layout, regions.into(), ACTIVE_BRIGHT);

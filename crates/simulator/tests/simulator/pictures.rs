@@ -99,6 +99,62 @@ fn arrows_show_where_content_has_moved() {
     }
 }
 
+/// Regions that are off are hatched, and a line surrounds the areas of the other classes. The legend
+/// names the classes of the map, and only these.
+#[test]
+fn the_overlay_shows_the_classes_of_regions() {
+    let folder = tempfile::tempdir().unwrap();
+    let plain = |x: u32, y: u32| (100 + x + y) as u8;
+    let image = support::grey(&folder.path().join("a.png"), 48, 32, plain);
+    let output = folder.path().join("out");
+    let overrides =
+        ["denoise.filter=\"none\"", "zones.classes=[\"100033\",\"102203\",\"102200\",\"000000\"]"];
+    let options = RunOptions { overlay: Some(PictureFormat::Png), ..NOTHING() };
+    support::run(&[image], &overrides, &output, &options).unwrap();
+    let picture = image::open(output.join("overlay/000000.png")).unwrap().into_rgb8();
+    // Each pixel is enlarged to 10 x 10, and a dot is 2 x 2.
+    const CELL: u32 = 80;
+    assert_eq!(picture.dimensions(), (480, 320 + (2 * (5 + 4) + 32) * 2));
+    let at = |x: u32, y: u32| picture.get_pixel(x, y).0;
+    let [keen, always] = [[0, 114, 178], [213, 94, 0]];
+    // The area of regions 2,1 to 3,2 has a line around it and none inside.
+    for place in (2 * CELL..4 * CELL).step_by(7) {
+        assert_eq!(at(place, CELL), keen);
+        assert_eq!(at(place, 3 * CELL - 1), keen);
+        let place = place - CELL;
+        assert_eq!([at(2 * CELL, place), at(4 * CELL - 1, place)], [keen; 2]);
+    }
+    assert!(![at(3 * CELL, CELL + 30), at(2 * CELL + 30, 2 * CELL)].contains(&keen));
+    // The border of the frame is an edge, too.
+    assert_eq!(
+        [at(4 * CELL + 9, 0), at(6 * CELL - 1, CELL + 9), at(5 * CELL, CELL + 9)],
+        [always; 3]
+    );
+    let shades = |column: u32, row: u32| {
+        let row = (0..20).map(|x| at(column * CELL + 30 + x, row * CELL + 35));
+        let darkest = row.clone().map(|[r, g, b]| u32::from(r) + u32::from(g) + u32::from(b));
+        (darkest.clone().min().unwrap(), darkest.max().unwrap())
+    };
+    let (dark, bright) = shades(0, 1);
+    assert!(dark * 2 < bright, "{dark} {bright}");
+    let (dark, bright) = shades(1, 1);
+    assert!(dark * 5 > bright * 4, "{dark} {bright}");
+    // A map of one class has a legend of one class, and none with normal regions alone.
+    let legend = |classes: &str| {
+        let output = folder.path().join(format!("out{}", classes.len()));
+        support::run(&[folder.path().join("a.png")], &[classes], &output, &options).unwrap();
+        image::open(output.join("overlay/000000.png")).unwrap().into_rgb8()
+    };
+    let row = "\"222222\"";
+    let only_keen = legend(&format!("zones.classes=[{row},{row},{row},{row}]"));
+    let has = |picture: &RgbImage, colour: [u8; 3]| {
+        picture.enumerate_pixels().any(|(_, y, pixel)| y >= 320 && pixel.0 == colour)
+    };
+    assert_eq!([keen, always].map(|colour| has(&only_keen, colour)), [true, false]);
+    assert_eq!([keen, always].map(|colour| has(&picture, colour)), [true; 2]);
+    assert_eq!(legend("zones={}").height(), 320 + (5 + 4 + 32) * 2);
+}
+
 /// The bar of every frame has the height of the share of active regions.
 #[test]
 fn the_strip_shows_the_share_of_active_regions() {

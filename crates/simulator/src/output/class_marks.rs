@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The marks of classes of regions in a picture: regions that are off are hatched, and a line in the
+//! colour of the class surrounds the areas of regions that are keen or always relevant.
+
+use foveate_camera::{Camera, RegionClass};
+use foveate_pictures::palette::{Colour, SERIES};
+
+use super::canvas::{BACKGROUND, PictureCanvas, PictureLayout};
+use super::font;
+use super::sink::SinkFrame;
+
+/// The share by which a stripe of the hatching darkens.
+const HATCHING: f64 = 0.6;
+
+/// The classes of the regions of a frame, with at least one that is not normal.
+pub(super) struct ClassMarks {
+    classes: Vec<RegionClass>,
+    columns: u32,
+    rows: u32,
+}
+
+impl ClassMarks {
+    /// Returns the marks of a frame. There are none if all regions are normal, or if the map of the
+    /// frame is not known, because a recording says only that it is not that of the design.
+    pub(super) fn of_frame(sink_frame: &SinkFrame<'_>) -> Option<Self> {
+        let SinkFrame { camera, map_version, .. } = sink_frame;
+        if camera.zones().is_none() || map_version.is_some_and(|version| version > 0) {
+            return None;
+        }
+        let classes = camera.configured_classes();
+        let is_marked = classes.iter().any(|&class| class != RegionClass::Normal);
+        is_marked.then(|| Self { classes, columns: camera.columns(), rows: camera.rows() })
+    }
+
+    /// Returns true if every frame of a camera may have marks, so that pictures have space for their
+    /// legend.
+    pub(super) fn are_possible(camera: &Camera) -> bool {
+        camera.configured_classes().iter().any(|&class| class != RegionClass::Normal)
+    }
+
+    /// Draws the marks on the picture of a frame.
+    pub(super) fn draw(&self, canvas: &mut PictureCanvas, cell: u32, layout: PictureLayout) {
+        for (region, &class) in (0..).zip(&self.classes) {
+            let (column, row) = (region % self.columns, region / self.columns);
+            let (left, top) = (column * cell, row * cell);
+            let width = cell.min(layout.frame_width - left);
+            let height = cell.min(layout.frame_height - top);
+            let area = [left, top, width, height];
+            match class {
+                RegionClass::Normal => {}
+                RegionClass::Off => hatch(canvas, area, layout.dot),
+                RegionClass::Keen | RegionClass::Always => {
+                    self.draw_edges(canvas, (column, row), area, layout.dot);
+                }
+            }
+        }
+    }
+
+    /// Draws a line on the sides of a region beyond which another class begins.
+    fn draw_edges(
+        &self,
+        canvas: &mut PictureCanvas,
+        (column, row): (u32, u32),
+        [left, top, width, height]: [u32; 4],
+        dot: u32,
+    ) {
+        let own = self.class_at(column, row);
+        let colour = own.and_then(class_colour).unwrap_or(BACKGROUND);
+        let line = dot.min(width).min(height);
+        let ends =
+            |x: Option<u32>, y: Option<u32>| x.zip(y).and_then(|(x, y)| self.class_at(x, y)) != own;
+        let mut draw = |is_edge: bool, [left, top, width, height]: [u32; 4]| {
+            if is_edge {
+                canvas.fill_rectangle(left, top, width, height, colour);
+            }
+        };
+        let (x, y) = (Some(column), Some(row));
+        draw(ends(column.checked_sub(1), y), [left, top, line, height]);
+        draw(ends(column.checked_add(1), y), [left + width - line, top, line, height]);
+        draw(ends(x, row.checked_sub(1)), [left, top, width, line]);
+        draw(ends(x, row.checked_add(1)), [left, top + height - line, width, line]);
+    }
+
+    fn class_at(&self, column: u32, row: u32) -> Option<RegionClass> {
+        let is_inside = column < self.columns && row < self.rows;
+        is_inside.then(|| self.classes[(row * self.columns + column) as usize])
+    }
+}
+
+/// Draws the legend of the classes that the map of a camera has.
+pub(super) fn draw_class_legend(
+    canvas: &mut PictureCanvas,
+    layout: PictureLayout,
+    top: u32,
+    camera: &Camera,
+) {
+    let (dot, side) = (layout.dot, font::SIZE.1 * layout.dot);
+    let classes = camera.configured_classes();
+    let mut left = 2 * dot;
+    for &class in RegionClass::ALL.iter().filter(|class| classes.contains(class)) {
+        match (class, class_colour(class)) {
+            (RegionClass::Off, _) => {
+                canvas.fill_rectangle(left, top, side, side, [128; 3]);
+                hatch(canvas, [left, top, side, side], dot);
+            }
+            (_, Some(colour)) => canvas.draw_border([left, top, side, side], dot, colour),
+            (_, None) => continue,
+        }
+        left = canvas.draw_text(left + side + dot, top, dot, class.name()) + 3 * dot;
+    }
+}
+
+/// Returns the colour of the line around regions of a class.
+fn class_colour(class: RegionClass) -> Option<Colour> {
+    match class {
+        RegionClass::Keen => Some(SERIES[0]),
+        RegionClass::Always => Some(SERIES[1]),
+        RegionClass::Normal | RegionClass::Off => None,
+    }
+}
+
+/// Darkens every fourth diagonal stripe of an area.
+fn hatch(canvas: &mut PictureCanvas, [left, top, width, height]: [u32; 4], dot: u32) {
+    for y in top..top + height {
+        for x in (left..left + width).filter(|x| (x + y) / dot % 4 == 0) {
+            canvas.blend(x, y, BACKGROUND, HATCHING);
+        }
+    }
+}
