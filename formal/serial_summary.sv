@@ -3,23 +3,28 @@
 // must be those of the contract.
 module properties #(
     parameter WIDTH = 1, parameter MEANS = 4, parameter AREA = 4, parameter SUM_BITS = 3, parameter FACTOR_BITS = 1,
-    parameter [FACTOR_BITS-1:0] FACTOR = 1, parameter SHIFT = 2
+    parameter [FACTOR_BITS-1:0] FACTOR = 1, parameter SHIFT = 2, parameter ZONES = 0
 ) (
     input wire clk_i, rst_i, frame, average, decided, srs, trs,
-    input wire [1:0] next_region, input wire [(MEANS > 1 ? $clog2(MEANS) : 1)-1:0] next_block,
+    input wire [1:0] next_region, next_class, next_map, input wire [(MEANS > 1 ? $clog2(MEANS) : 1)-1:0] next_block,
     input wire [SUM_BITS-1:0] sum
 );
     `include "reset.vh"
     localparam BLOCK_BITS = MEANS > 1 ? $clog2(MEANS) : 1;
     localparam SLOTS = 3;
     (* anyconst *) wire [1:0] watched;
-    (* anyconst *) wire [WIDTH-1:0] level;
+    (* anyconst *) wire [WIDTH-1:0] level, keen_level, off_level;
     reg [1:0] region;
+    // The class of the region that passes. That of the watched region changes only with a frame.
+    reg [1:0] passing_class, watched_class;
     reg [BLOCK_BITS-1:0] block;
     always @(posedge clk_i) begin
         region <= next_region;
         block  <= next_block;
+        passing_class <= next_class;
+        if (rst_i || frame) watched_class <= next_map;
     end
+    wire [WIDTH-1:0] own_level = !ZONES ? level : watched_class == 2 ? keen_level : watched_class == 1 ? off_level : level;
     wire here = region == watched;
 
     // The sequencer: sums of all blocks, block by block; some idle clocks; decisions; the frame is done.
@@ -37,6 +42,7 @@ module properties #(
         if (decided) assume(since > 2);
         if (decided && here) assume(averaged == MEANS && !done);
         if (frame) assume(done && !average && !decided);
+        if (here) assume(passing_class == watched_class);
     end
     always @(posedge clk_i) begin
         since <= average ? 0 : since == 7 ? 7 : since + 1;
@@ -55,11 +61,12 @@ module properties #(
     wire [WIDTH-1:0] mean;
     serial_summary #(
         .WIDTH(WIDTH), .MEANS(MEANS), .BLOCK_BITS(BLOCK_BITS), .SUM_BITS(SUM_BITS), .FACTOR_BITS(FACTOR_BITS),
-        .FACTOR(FACTOR), .SHIFT(SHIFT), .SLOTS(SLOTS), .REGION_BITS(2)
+        .FACTOR(FACTOR), .SHIFT(SHIFT), .SLOTS(SLOTS), .REGION_BITS(2), .ZONES(ZONES)
     ) dut (
         .clk_i(clk_i), .rst_i(rst_i), .frame_i(frame), .next_region_i(next_region), .next_block_i(next_block),
         .region_i(region), .block_i(block), .average_i(average), .sum_i(sum), .decided_i(decided),
-        .srs_i(decided && srs), .active_i(decided && srs && trs), .level_i(level), .summary_o(summary), .mean_o(mean)
+        .srs_i(decided && srs), .active_i(decided && srs && trs), .level_i(level),
+        .keen_level_i(keen_level), .off_level_i(off_level), .class_i(passing_class), .summary_o(summary), .mean_o(mean)
     );
 
     // The values by the contract.
@@ -73,7 +80,7 @@ module properties #(
     always @(posedge clk_i) begin
         if (average && here) begin
             means[WIDTH*block+:WIDTH] <= now;
-            differs <= (averaged != 0 && differs) || (now > old ? now - old : old - now) > level;
+            differs <= (averaged != 0 && differs) || (now > old ? now - old : old - now) > own_level;
         end
         if (rst_i) shows <= 0;
         else if (decided && here) begin

@@ -54,6 +54,8 @@ deep="--set hardware.pipelining='deep'"
 sync="--set hardware.sync=true"
 switching="--set denoise.filter='switching3x3'"
 binomial="--set denoise.filter='binomial3x3'"
+means="--set render.irrelevant='mean'"
+zones="--set zones={}"
 axi="--level axi --set hardware.organization='raster' --set hardware.interface='axi'"
 names=(paper all)
 settings=("paper" "paper --set denoise.filter='none' --set temporal.reference='last-sent' --set spatial=$all")
@@ -61,7 +63,7 @@ if [ "${1:-}" != --quick ]; then
     names+=(shared raw odd large means serial_sent serial_all serial_none serial_shared serial_raster serial_block
         serial_means serial_deep serial_swift deep raster_plain raster_sums raster_sent raster_outside raster_single raster_mute raster_means
         array_sync serial_sync raster_sync switching binomial serial_switching serial_binomial serial_flow serial_flow_sent serial_flow_shared raster_switching raster_binomial
-        axi axi_means axi_outside axi_odd)
+        axi axi_means axi_outside axi_odd array_zones array_zones_deep serial_zones serial_zones_deep raster_zones raster_zones_deep axi_zones)
     settings+=(
         "paper --set region.neighborhood='shared' --set spatial=[$corner,$edge] --set decision.combine='all'"
         "paper --set render.payload='raw' --set render.irrelevant='hold' --set spatial=$all"
@@ -101,6 +103,13 @@ if [ "${1:-}" != --quick ]; then
         "bare $axi --rounds 3 --set region.size=4 --set frame={width=30,height=20,pixel_bits=10} --set hardware.pixels_per_clock=2 --set temporal.reference='last-sent' --set render={irrelevant='mean',payload='raw'} --set spatial=$all"
         "bare $axi --rounds 3 --set region.size=8 --set frame={width=32,height=16} --set hardware.store='external' --set hardware.thresholds='constant'"
         "bare $axi --rounds 3 --set region.size=5 --set frame={width=16,height=12} --set hardware.store='external' --set hardware.thresholds='constant'"
+        "paper --level rcm --grid 3x2 --set region.size=4 $means --set spatial=$all $zones"
+        "bare --level rcm --grid 3x2 $deep --set region.size=5 --set temporal.reference='last-sent' --set spatial=[$edge,$fraction] $zones"
+        "paper $serial --set region.size=4 --set hardware.fold=2 $means --set spatial=$all $zones"
+        "bare $serial $deep --set region.size=5 --set hardware.feed='raster' --set temporal.reference='last-sent' --set spatial=[$edge,{feature='flow',radius=2}] $zones"
+        "paper $raster --grid 5x4 --set region.size=4 $means --set spatial=$all $zones"
+        "bare $raster --grid 8x5 $deep --set region.size=4 --set hardware.pixels_per_clock=2 --set temporal.reference='last-sent' --set spatial=[$corner,$fraction] $zones"
+        "bare $axi --rounds 3 --set region.size=4 --set frame={width=32,height=20} $means --set spatial=[$edge,{feature='mad',min_score=4}] $zones"
     )
 fi
 chosen=()

@@ -40,6 +40,7 @@ impl<'a> SceneBuilder<'a> {
         vec![
             ("maps of classes", self.class_maps(banks())),
             ("maps of classes at any time", self.class_maps_at_any_time(banks())),
+            ("thresholds of classes", self.class_thresholds(banks())),
         ]
     }
 
@@ -136,6 +137,22 @@ impl<'a> SceneBuilder<'a> {
         traffic
     }
 
+    /// Gives all regions one class, and changes the thresholds of that class from frame to frame.
+    fn class_thresholds(&mut self, mut banks: ClassBanks) -> Traffic<'a> {
+        let mut traffic = self.waiting_traffic();
+        for class in [RegionClass::Keen, RegionClass::Off] {
+            traffic.drain();
+            let map = vec![class; self.design().regions() as usize];
+            self.write_map(&mut traffic, &map, 0);
+            self.commit_map(&mut traffic, banks.version, false);
+            banks.other.clone_from(&map);
+            banks.commit();
+            self.send_threshold_sweep(&mut traffic, class, &[(banks.version, map)]);
+        }
+        self.end_session(&mut traffic, 0);
+        traffic
+    }
+
     fn random_map(&mut self) -> Vec<RegionClass> {
         let regions = self.design().regions();
         let random = self.random();
@@ -156,10 +173,15 @@ impl<'a> SceneBuilder<'a> {
         let [word, address] = ["zone_word", "zone_address"].map(|name| self.address(name));
         traffic.write(address, place);
         traffic.write_bytes(word, u32::MAX, 0b0111);
+        let mut behind = place;
         for classes in classes.chunks(CLASSES_PER_WORD as usize) {
             traffic.write(word, class_word(classes));
+            behind += 1;
         }
         traffic.read(word, ExpectedRead::Value(0));
+        // The address has no more bits than the number of the last word.
+        behind %= 1 << self.design().class_address_bits();
+        traffic.read(address, ExpectedRead::Value(behind));
     }
 
     /// Commits the map after `version` commits. While it waits, if it does, neither a word nor

@@ -5,7 +5,7 @@ use super::checker::{BusAgreement, BusChecker};
 use super::port_record::BusRecord;
 use super::program::program;
 use super::replay::BusReplay;
-use super::scenes::{BusScene, SceneBuilder, cameras};
+use super::scenes::{BusScene, OtherThresholds, SceneBuilder, cameras};
 use super::thresholds::{StaleThreshold, other_threshold_designs, threshold_sweep};
 use super::traffic::Traffic;
 use crate::error::CosimError;
@@ -16,7 +16,7 @@ use crate::replay;
 use crate::report::{CosimReport, StepSeconds};
 use crate::simulation::{Simulator, UNKNOWN_START, WAVES_FILE};
 use crate::situations::{BusSituationCounts, Occurrences};
-use foveate_design::{Design, RasterDesign};
+use foveate_design::{Design, RasterDesign, RegionClass};
 use foveate_emit::{AXI_TOP, Prefix, Register, SourceFile, axi_modules, axi_registers};
 use foveate_frame::Frame;
 use foveate_staging::{ScratchFolder, write_file};
@@ -137,13 +137,21 @@ impl BusJob {
         replay::remove_earlier(&self.output)?;
 
         let start = Instant::now();
-        let mut others = other_threshold_designs(&self.design);
-        others.extend(threshold_sweep(&self.design));
+        let mut others: Vec<_> = other_threshold_designs(&self.design);
+        let mut classes = vec![RegionClass::Normal; others.len()];
+        for class in [RegionClass::Normal, RegionClass::Keen, RegionClass::Off] {
+            others.extend(threshold_sweep(&self.design, class));
+            classes.resize(others.len(), class);
+        }
         let cameras = cameras(&self.design, &others);
         let all: Vec<Design> = std::iter::once(&self.design).chain(&others).cloned().collect();
         let missed = StaleThreshold::all_of(&all);
-        let others: Vec<_> =
-            others.iter().filter_map(Design::as_raster).map(axi_registers).collect();
+        let others = others.iter().filter_map(Design::as_raster).map(axi_registers);
+        let others: Vec<_> = classes
+            .into_iter()
+            .zip(others)
+            .map(|(class, registers)| OtherThresholds { class, registers })
+            .collect();
         let registers = axi_registers(design);
         let scenes = self.scenes(design, &registers, &others);
         let vectors = start.elapsed();
@@ -200,7 +208,7 @@ impl BusJob {
         &self,
         design: RasterDesign<'a>,
         registers: &'a [Register],
-        others: &'a [Vec<Register>],
+        others: &'a [OtherThresholds],
     ) -> Vec<BusScene<'a>> {
         let mut scenes = Vec::new();
         for round in 0..u64::from(self.rounds) {

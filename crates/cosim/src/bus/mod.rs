@@ -19,6 +19,7 @@ mod port_record;
 mod program;
 mod replay;
 mod scenes;
+mod threshold_key;
 mod thresholds;
 mod traffic;
 mod video_damage;

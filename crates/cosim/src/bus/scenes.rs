@@ -6,7 +6,7 @@ use super::frame_source::BusFrameSource;
 use super::traffic::{ExpectedFrame, ExpectedRead, FrameFate, Traffic};
 use super::video_damage::VideoDamage;
 use crate::stimulus::Random;
-use foveate_design::{Camera, Design, RasterDesign, RasterTiming};
+use foveate_design::{Camera, Design, RasterDesign, RasterTiming, RegionClass};
 use foveate_emit::{FieldKind, Register};
 use foveate_frame::Frame;
 
@@ -28,12 +28,18 @@ const MAX_RESET_DELAY: u64 = 14;
 /// A scene: its name and its traffic.
 pub(super) type BusScene<'a> = (&'static str, Traffic<'a>);
 
+/// The registers of a core with other thresholds, and the class whose regions show that they differ.
+pub(super) struct OtherThresholds {
+    pub(super) class: RegionClass,
+    pub(super) registers: Vec<Register>,
+}
+
 /// The builder of the scenes of a core.
 pub(super) struct SceneBuilder<'a> {
     design: RasterDesign<'a>,
     registers: &'a [Register],
-    /// The registers of the same core with other thresholds; empty if thresholds are constants.
-    other_registers: &'a [Vec<Register>],
+    /// The same core with other thresholds; empty if thresholds are constants.
+    other_thresholds: &'a [OtherThresholds],
     random: Random,
     frame_source: BusFrameSource,
 }
@@ -42,12 +48,12 @@ impl<'a> SceneBuilder<'a> {
     pub(super) fn new(
         design: RasterDesign<'a>,
         registers: &'a [Register],
-        others: &'a [Vec<Register>],
+        others: &'a [OtherThresholds],
         seed: u64,
     ) -> Self {
         let mut random = Random::new(seed);
         let frame_source = BusFrameSource::new(design, &mut random);
-        Self { design, registers, other_registers: others, random, frame_source }
+        Self { design, registers, other_thresholds: others, random, frame_source }
     }
 
     /// Returns the scenes that every core must pass.
@@ -318,24 +324,39 @@ impl<'a> SceneBuilder<'a> {
         );
     }
 
-    /// Sends frames of noise, and within each frame writes the thresholds of the next.
     fn every_threshold(&mut self) -> Traffic<'a> {
         let mut traffic = self.waiting_traffic();
+        self.send_threshold_sweep(&mut traffic, RegionClass::Normal, &[]);
+        self.end_session(&mut traffic, 0);
+        traffic
+    }
+
+    /// Sends frames of noise, and within each frame writes the thresholds of the next: those that are
+    /// for regions of a class. The frames have the map of classes of `maps`.
+    pub(super) fn send_threshold_sweep(
+        &mut self,
+        traffic: &mut Traffic<'a>,
+        class: RegionClass,
+        maps: &[(u16, Vec<RegionClass>)],
+    ) {
         let middle = self.design.height() / 2;
-        for camera in 0..=self.other_registers.len() {
+        let others: &'a [OtherThresholds] = self.other_thresholds;
+        let own = others.iter().zip(1..).filter(|(other, _)| other.class == class);
+        let sets = own.map(|(other, camera)| (camera, other.registers.as_slice()));
+        let sets: Vec<_> = sets.chain([(0, self.registers)]).collect();
+        let mut camera_index = 0;
+        for (next, registers) in sets {
             let sent = ExpectedFrame {
-                camera_index: camera,
+                camera_index,
+                maps: maps.to_vec(),
                 ..taken_frame(self.frame_source.noise_frame())
             };
-            let next =
-                self.other_registers.get(camera).map(Vec::as_slice).unwrap_or(self.registers);
-            let written: Vec<(u32, u32)> = next.iter().filter_map(threshold_register).collect();
+            let written: Vec<_> = registers.iter().filter_map(threshold_register).collect();
             traffic.send_frame_around(sent, middle, |traffic| {
                 written.iter().for_each(|&(address, value)| traffic.write(address, value));
             });
+            camera_index = next;
         }
-        self.end_session(&mut traffic, 0);
-        traffic
     }
 
     /// Writes the thresholds of camera `to` within a frame; they hold from the next frame on.
@@ -348,8 +369,8 @@ impl<'a> SceneBuilder<'a> {
         from: usize,
         to: usize,
     ) -> usize {
-        let Some(others) = self.other_registers.get(to.max(1) - 1) else { return from };
-        let registers = if to == 0 { self.registers } else { others };
+        let Some(others) = self.other_thresholds.get(to.max(1) - 1) else { return from };
+        let registers = if to == 0 { self.registers } else { &others.registers };
         let written: Vec<(u32, u32)> = registers.iter().filter_map(threshold_register).collect();
         let frame =
             ExpectedFrame { camera_index: from, ..taken_frame(self.frame_source.quiet_frame()) };
@@ -400,6 +421,13 @@ impl<'a> SceneBuilder<'a> {
     fn resets_of_registers(&mut self) -> Traffic<'a> {
         let mut traffic = Traffic::new(self.design);
         traffic.reset();
+        // A reset clears every register that can have another value.
+        for register in self.registers.iter().filter(|one| !is_class_register(one)) {
+            traffic.write_bytes(register.address, !reset_value(register), ALL_BYTES);
+        }
+        traffic.wait_for_accesses();
+        traffic.reset_for(1);
+        self.expect_reset_values(&mut traffic);
         for _ in 0..RESET_COUNT {
             for _ in 0..4 {
                 let (read, written) = (self.random_register(), self.random_register());

@@ -2,58 +2,10 @@
 //! Thresholds that are written while frames come: other values for each of them, and sequences in
 //! which each decides.
 
+use super::threshold_key::{ThresholdKey, keep_class_thresholds, with_class_thresholds};
 use foveate_design::{
-    Camera, Decimal, Design, DesignConfig, FeatureKind, ThresholdSource, VoteCombination,
+    Camera, Decimal, Design, DesignConfig, RegionClass, ThresholdSource, VoteCombination,
 };
-
-/// One threshold of a design.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum ThresholdKey {
-    /// The level of the feature with this index among those of the camera.
-    Level(usize),
-    /// The minimum score of the feature with this index.
-    MinScore(usize),
-    TemporalLevel,
-    TemporalMinCount,
-    SummaryLevel,
-}
-
-impl ThresholdKey {
-    /// Returns all thresholds of a design.
-    pub(super) fn all_of(design: &Design) -> Vec<Self> {
-        let features = design.features().iter().enumerate();
-        let of_features = features.flat_map(|(place, feature)| {
-            let level = feature.level().map(|_| Self::Level(place));
-            level.into_iter().chain([Self::MinScore(place)])
-        });
-        let summary = design.periphery().map(|_| Self::SummaryLevel);
-        of_features.chain([Self::TemporalLevel, Self::TemporalMinCount]).chain(summary).collect()
-    }
-
-    /// Returns the name of the register that holds the threshold.
-    pub(super) fn register(self, design: &Design) -> String {
-        let feature = |place: usize| -> FeatureKind { design.features()[place].kind() };
-        match self {
-            Self::Level(place) => format!("{}_level", feature(place).name()),
-            Self::MinScore(place) => format!("{}_min", feature(place).name()),
-            Self::TemporalLevel => "temporal_level".to_owned(),
-            Self::TemporalMinCount => "temporal_min".to_owned(),
-            Self::SummaryLevel => "summary_level".to_owned(),
-        }
-    }
-
-    /// Copies this threshold from one configuration to another.
-    fn copy_value(self, from: &DesignConfig, to: &mut DesignConfig) {
-        let (from, to) = (&from.camera, &mut to.camera);
-        match self {
-            Self::Level(place) => to.spatial[place].level = from.spatial[place].level,
-            Self::MinScore(place) => to.spatial[place].min_score = from.spatial[place].min_score,
-            Self::TemporalLevel => to.temporal.level = from.temporal.level,
-            Self::TemporalMinCount => to.temporal.min_count = from.temporal.min_count,
-            Self::SummaryLevel => to.periphery.level = from.periphery.level,
-        }
-    }
-}
 
 /// Returns the design with other thresholds: once with a lower temporal level, once with a temporal
 /// level whose highest bit is set. Returns an empty list if thresholds are constants.
@@ -98,14 +50,32 @@ fn with_level(design: &Design, level: u32) -> Design {
     })
 }
 
-/// Returns thresholds for a sequence of noise frames, one set for each frame. Every threshold
-/// decides once: it alone differs from the thresholds of the frame before, and all decisions depend
-/// on it.
-pub(super) fn threshold_sweep(design: &Design) -> Vec<Design> {
+/// Returns thresholds of a class for a sequence of noise frames whose regions have that class, one
+/// set for each frame. Every threshold decides once: it alone differs from the thresholds of the frame
+/// before, and all decisions depend on it.
+pub(super) fn threshold_sweep(design: &Design, class: RegionClass) -> Vec<Design> {
     match design.threshold_source() {
         ThresholdSource::Constant => return Vec::new(),
         ThresholdSource::Runtime => {}
     }
+    let configs = match class {
+        RegionClass::Normal => {
+            let designs = camera_sweep(design).into_iter().filter_map(|mut config| {
+                keep_class_thresholds(design, &mut config);
+                config.validate().ok()
+            });
+            return designs.collect();
+        }
+        _ if design.zones().is_none() => return Vec::new(),
+        RegionClass::Always => return Vec::new(),
+        RegionClass::Keen => camera_sweep(design),
+        RegionClass::Off => summary_sweep(design),
+    };
+    configs.iter().map(|config| with_class_thresholds(design, class, config)).collect()
+}
+
+/// Returns configurations of a camera in which each of its thresholds decides.
+fn camera_sweep(design: &Design) -> Vec<DesignConfig> {
     let all_active = all_active(design);
     let mut configs = vec![all_active.clone()];
     for place in 0..design.features().len() {
@@ -113,15 +83,21 @@ pub(super) fn threshold_sweep(design: &Design) -> Vec<Design> {
     }
     configs.push(all_active.clone());
     configs.extend(temporal_sweep(design, &all_active));
-    if design.periphery().is_some() {
-        let mut irrelevant = all_active;
-        (0..design.features().len())
-            .for_each(|place| disable_feature(design, &mut irrelevant, place));
-        let mut restless = irrelevant.clone();
-        restless.camera.periphery.level = Some(0);
-        configs.extend([irrelevant, restless]);
+    configs.extend(summary_sweep(design));
+    configs
+}
+
+/// Returns configurations in which no region is relevant: none sends means again, and all do. There
+/// are none for a camera without means.
+fn summary_sweep(design: &Design) -> Vec<DesignConfig> {
+    if design.periphery().is_none() {
+        return Vec::new();
     }
-    configs.into_iter().filter_map(|config| config.validate().ok()).collect()
+    let mut irrelevant = all_active(design);
+    (0..design.features().len()).for_each(|place| disable_feature(design, &mut irrelevant, place));
+    let mut restless = irrelevant.clone();
+    restless.camera.periphery.level = Some(0);
+    vec![irrelevant, restless]
 }
 
 /// Returns a configuration with which every region is active whatever it shows, and no mean differs
@@ -243,13 +219,16 @@ mod tests {
         {
             let toml = format!(
                 "spatial=[{list}]\nframe.pixel_bits={bits}\ndecision.combine='{combine}'\n\
-                 render.irrelevant='{irrelevant}'\nhardware.organization='raster'\n"
+                 render.irrelevant='{irrelevant}'\nhardware.organization='raster'\nzones={{}}\n"
             );
             let design = DesignConfig::from_toml(&toml).unwrap().validate().unwrap();
-            let steps = threshold_sweep(&design);
-            let alone: Vec<_> = steps
-                .windows(2)
-                .map(|pair| differing_thresholds(&pair[1], &pair[0]))
+            let alone: Vec<_> = RegionClass::ALL
+                .iter()
+                .map(|&class| threshold_sweep(&design, class))
+                .flat_map(|steps| {
+                    let pairs = steps.windows(2);
+                    pairs.map(|pair| differing_thresholds(&pair[1], &pair[0])).collect::<Vec<_>>()
+                })
                 .filter(|keys| keys.len() == 1)
                 .flatten()
                 .collect();

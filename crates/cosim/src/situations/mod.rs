@@ -7,6 +7,7 @@
 //! not depend on how stimuli are made.
 
 mod bus_situations;
+mod class_activity;
 mod monitor;
 mod occurrence;
 mod places;

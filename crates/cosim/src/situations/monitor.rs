@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A monitor of the ports of an array or unit, which counts situations clock by clock.
 
+use super::class_activity::ClassActivity;
 use super::occurrence::Occurrences;
 use super::places::has_pixel;
 use super::port_situations::{PortSituationCounts, flushed_windows};
@@ -43,6 +44,7 @@ pub(crate) struct SituationMonitor {
     first_flush_clocks: u64,
     flush_clocks: u64,
     intake: IntakeState,
+    classes: ClassActivity,
     /// The number of decisions since the last reset, over all lanes.
     decision_count: u64,
     /// The temporal count of each region that a serial array has shown.
@@ -89,6 +91,7 @@ impl SituationMonitor {
             first_flush_clocks: u64::from(design.region_size()) + 1,
             flush_clocks: (u64::from(design.region_size()) + 1) * flushed_windows(design),
             intake: IntakeState::default(),
+            classes: ClassActivity::default(),
             decision_count: 0,
             counts: vec![None; regions as usize],
             was_ready: false,
@@ -120,6 +123,8 @@ impl SituationMonitor {
         if clock.is_high(&self.ports.reset) {
             self.reset();
         } else {
+            let is_within = (1..self.beats_per_frame).contains(&self.intake.beats);
+            self.classes.count_maps(&self.ports, clock, is_within, &mut self.facts);
             self.count_intake(clock, clocks);
             self.count_stalls(clock);
             self.count_losses(clock);
@@ -141,6 +146,7 @@ impl SituationMonitor {
             self.shown_at_reset = shown.into_iter().filter_map(hash).collect();
         }
         *intake = IntakeState::default();
+        self.classes.reset();
         self.counts.fill(None);
         (self.decision_count, self.means_are_due) = (0, false);
         (self.has_error, self.decided_since_error) = (false, 0);
@@ -213,6 +219,7 @@ impl SituationMonitor {
             fields.flat_map(|field| field.bytes_in(clock.input).iter().copied()).collect();
         let has_changed = intake.is_in_step && thresholds != intake.thresholds;
         facts.threshold_changed += u64::from(has_changed);
+        self.classes.begin_frame(ports, clock, facts);
         (intake.beats, intake.hasher, intake.is_in_step) = (0, DefaultHasher::new(), true);
         intake.thresholds = thresholds;
     }
@@ -319,6 +326,7 @@ impl SituationMonitor {
     /// Keeps the outputs for the next clock.
     fn keep_outputs(&mut self, clock: WatchedClock<'_>) {
         self.was_ready = clock.is_high(&self.ports.ready);
+        self.classes.keep_outputs(&self.ports, clock);
         self.had_output = clock.is_high(&self.ports.forward_valid);
         self.had_mean = self.had_output && clock.is_high(&self.ports.forward_summary);
         let underrun = clock.is_high(&self.ports.underrun);

@@ -53,6 +53,17 @@ pub(super) struct PortSituationCounts {
     pub(super) moved: u64,
     /// The number of regions that moved as far as `flow` searches, in both directions.
     pub(super) moved_far: u64,
+    /// The number of regions of a class, or of those in a written word.
+    pub(super) class_off: u64,
+    pub(super) class_keen: u64,
+    pub(super) class_always: u64,
+    /// The number of regions of a pipelined array that have another class than in the frame before.
+    pub(super) class_changed: u64,
+    /// The number of commits of maps; `commit_while_pending` counts those without effect.
+    pub(super) map_within_frame: u64,
+    pub(super) map_between_frames: u64,
+    pub(super) commit_while_pending: u64,
+    pub(super) word_while_pending: u64,
 }
 
 /// A situation: its name, the designs and modules that can have it, and its count.
@@ -217,6 +228,38 @@ const SITUATIONS: &[PortSituation] = &[
         |design, _| design.displacement_feature().is_some(),
         |facts| facts.moved_far,
     ),
+    situation("a region is off", |design, _| has_zones(design), |facts| facts.class_off),
+    situation("a region is keen", |design, _| has_zones(design), |facts| facts.class_keen),
+    situation(
+        "a region is always relevant",
+        |design, _| has_zones(design),
+        |facts| facts.class_always,
+    ),
+    situation(
+        "the class of a region changes from one frame to the next",
+        |design, _| has_zones(design) && is_pipelined(design),
+        |facts| facts.class_changed,
+    ),
+    situation(
+        "a map of classes is committed within a frame",
+        |design, _| design.has_class_memory(),
+        |facts| facts.map_within_frame,
+    ),
+    situation(
+        "a map of classes is committed between two frames",
+        |design, _| design.has_class_memory(),
+        |facts| facts.map_between_frames,
+    ),
+    situation(
+        "a word of classes comes while a map waits",
+        |design, _| design.has_class_memory(),
+        |facts| facts.word_while_pending,
+    ),
+    situation(
+        "a commit comes while a map waits",
+        |design, _| design.has_class_memory(),
+        |facts| facts.commit_while_pending,
+    ),
 ];
 
 impl PortSituationCounts {
@@ -255,6 +298,10 @@ pub(crate) fn can_be_irrelevant(design: &Design) -> bool {
         VoteCombination::All => votes.all(|vote| vote),
     };
     is_runtime(design) || !always
+}
+
+fn has_zones(design: &Design) -> bool {
+    design.zones().is_some()
 }
 
 fn sends_means(design: &Design) -> bool {

@@ -34,6 +34,10 @@ pub(super) struct WatchedPort {
 #[derive(Clone, Debug)]
 pub(super) struct WatchedPorts {
     pub(super) any_score: WatchedPort,
+    pub(super) class_commit: WatchedPort,
+    pub(super) class_pending: WatchedPort,
+    pub(super) class_word: WatchedPort,
+    pub(super) class_write: WatchedPort,
     pub(super) decision_valid: WatchedPort,
     pub(super) displacement_x: WatchedPort,
     pub(super) displacement_y: WatchedPort,
@@ -49,6 +53,7 @@ pub(super) struct WatchedPorts {
     pub(super) pixel: WatchedPort,
     pub(super) ready: WatchedPort,
     pub(super) region: WatchedPort,
+    pub(super) region_class: WatchedPort,
     pub(super) reset: WatchedPort,
     pub(super) score_index: WatchedPort,
     pub(super) score_valid: WatchedPort,
@@ -77,6 +82,10 @@ impl WatchedPorts {
         let thresholds = inputs.fields().iter().filter(|field| is_threshold(field.port.role));
         Self {
             any_score: port(PortRole::AnyScore),
+            class_commit: port(PortRole::ClassCommit),
+            class_pending: port(PortRole::ClassPending),
+            class_word: port(PortRole::ClassWord),
+            class_write: port(PortRole::ClassWrite),
             decision_valid: port(PortRole::DecisionValid),
             displacement_x: port(PortRole::DisplacementX),
             displacement_y: port(PortRole::DisplacementY),
@@ -92,6 +101,7 @@ impl WatchedPorts {
             pixel: port(PortRole::Pixel),
             ready: port(PortRole::Ready),
             region: port(PortRole::Region),
+            region_class: port(PortRole::RegionClass),
             reset: port(PortRole::Reset),
             score_index: port(PortRole::ScoreIndex),
             score_valid: port(PortRole::ScoreValid),

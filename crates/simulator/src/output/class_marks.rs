@@ -122,7 +122,7 @@ fn class_colour(class: RegionClass) -> Option<Colour> {
 /// Darkens every fourth diagonal stripe of an area.
 fn hatch(canvas: &mut PictureCanvas, [left, top, width, height]: [u32; 4], dot: u32) {
     for y in top..top + height {
-        for x in (left..left + width).filter(|x| (x + y) / dot % 4 == 0) {
+        for x in (left..left + width).filter(|x| ((x + y) / dot).is_multiple_of(4)) {
             canvas.blend(x, y, BACKGROUND, HATCHING);
         }
     }
