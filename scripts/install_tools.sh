@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Installs missing external tools on Debian or Ubuntu: verilator, yosys, nextpnr-ice40, icepack, iverilog, a C++ compiler (also for
-# 32 bits), make, ffmpeg, shellcheck, Tcl, Python. With --browser, installs only Chromium, for scripts/web.sh --test.
+# Installs missing external tools on Debian or Ubuntu: verilator, yosys, nextpnr-ice40, icepack, iverilog, opensta with a library of
+# cells, a C++ compiler (also for 32 bits), make, ffmpeg, shellcheck, Tcl, Python. With --browser, installs only Chromium, for
+# scripts/web.sh --test.
 # It supports Debian 12 and Ubuntu 24.04 or later: Verilator 5 is needed, and Ubuntu 22.04 has 4. On other systems it prints what to
 # install.
 set -euo pipefail
@@ -23,6 +24,8 @@ else
     command -v nextpnr-ice40 >/dev/null || missing+=(nextpnr-ice40)
     command -v icepack >/dev/null || missing+=(fpga-icestorm)
     command -v iverilog >/dev/null || missing+=(iverilog)
+    { command -v sta || command -v opensta; } >/dev/null || missing+=(opensta)
+    [ -e /usr/share/qflow/tech/osu018/osu018_stdcells.lib ] || missing+=(qflow-tech-osu018)
     command -v g++ >/dev/null || missing+=(g++)
     # Verilator's own makefile needs make; the benches of a core use it.
     command -v make >/dev/null || missing+=(make)

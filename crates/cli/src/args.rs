@@ -275,11 +275,15 @@ pub(crate) enum SimulatorChoice {
     Iverilog,
 }
 
+/// The library of Debian's package `qflow-tech-osu018`.
+pub(crate) const DEFAULT_LIBERTY: &str = "/usr/share/qflow/tech/osu018/osu018_stdcells.lib";
+
 /// Synthesize a design with Yosys, and print its area and logic levels beside the paper's
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate estimate --preset bare
           foveate estimate --compare --markdown
-          foveate estimate --preset bare --place-and-route ecp5-85k,up5k")]
+          foveate estimate --preset bare --place-and-route ecp5-85k,up5k
+          foveate estimate --preset bare --liberty")]
 pub(crate) struct EstimateArgs {
     #[command(flatten)]
     pub(crate) design: DesignArgs,
@@ -303,6 +307,18 @@ pub(crate) struct EstimateArgs {
     /// (`FOVEATE_ECP5`)
     #[arg(long, requires = "place_and_route")]
     pub(crate) portable: bool,
+    /// Map the design to the cells of this liberty file instead, which may be gzipped, and print its
+    /// area on silicon, its longest path and its leakage. Without a file, the cells are those of
+    /// Debian's package `qflow-tech-osu018`, of 0.18 um. Each further --liberty makes a further report
+    #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = DEFAULT_LIBERTY, conflicts_with_all = ["compare", "place_and_route", "clock"])]
+    pub(crate) liberty: Vec<PathBuf>,
+    /// Liberty files of memory macros of the same voltage, for memories that are too large for
+    /// flip-flops
+    #[arg(long, value_name = "FILE", num_args = 1.., requires = "liberty")]
+    pub(crate) macros: Vec<PathBuf>,
+    /// Largest memory in bits that becomes flip-flops
+    #[arg(long, value_name = "BITS", default_value_t = 4096, requires = "liberty")]
+    pub(crate) memory_limit: u64,
     /// Clock of the design in MHz, for frame rates; without it, the clock that is estimated from
     /// the netlist is used
     #[arg(long, value_name = "MHZ", value_parser = at_least_one(), conflicts_with = "place_and_route")]

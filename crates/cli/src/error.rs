@@ -7,7 +7,7 @@ use foveate_boards::BoardError;
 use foveate_cosim::CosimError;
 use foveate_design::ConfigError;
 use foveate_emit::EmitError;
-use foveate_estimate::EstimateError;
+use foveate_estimate::{EstimateError, SiliconError};
 use foveate_explore::ExploreError;
 use foveate_footage::FootageError;
 use foveate_inference::InferenceError;
@@ -36,6 +36,8 @@ pub(crate) enum CliError {
     Emit(#[from] EmitError),
     #[error(transparent)]
     Estimate(#[from] EstimateError),
+    #[error(transparent)]
+    Silicon(#[from] SiliconError),
     #[error(transparent)]
     Playback(#[from] PlaybackError),
     #[error(transparent)]
@@ -92,6 +94,7 @@ impl CliError {
             Self::Tool(error) => tool_code(error),
             Self::Cosim(error) => cosim_code(error),
             Self::Estimate(error) => estimate_code(error),
+            Self::Silicon(error) => silicon_code(error),
             Self::Playback(error) => playback_code(error),
             Self::Simulator(error) => simulator_code(error),
             Self::Study(error) => study_code(error),
@@ -136,6 +139,14 @@ fn estimate_code(error: &EstimateError) -> u8 {
     match error {
         EstimateError::Tool(error) => tool_code(error),
         _ => TOOL_CODE,
+    }
+}
+
+fn silicon_code(error: &SiliconError) -> u8 {
+    match error {
+        SiliconError::Tool(error) => tool_code(error),
+        SiliconError::Netlist { .. } | SiliconError::Timing { .. } => TOOL_CODE,
+        _ => INPUT_CODE,
     }
 }
 

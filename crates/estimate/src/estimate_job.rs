@@ -125,7 +125,7 @@ impl EstimateJob {
 
     /// Returns the modules of the netlist that are made from the unit, the most frequent first. The
     /// netlist has one such module for each set of parameters.
-    fn units(&self, netlist: &AreaNetlist) -> Result<Vec<String>, EstimateError> {
+    pub(crate) fn units(&self, netlist: &AreaNetlist) -> Result<Vec<String>, EstimateError> {
         let mut found = Vec::new();
         for (name, count) in netlist.instances(&self.synthesis.array, &[])? {
             if netlist.module(&name)?.source_name == self.synthesis.unit {

@@ -25,6 +25,7 @@ mod paper;
 mod render;
 mod report;
 mod routing;
+mod silicon;
 mod speed;
 mod synthesis;
 mod table;
@@ -48,5 +49,10 @@ pub use routing::{
     ClockStatistics, CriticalPath, DeviceResult, PathEnd, PlacementResult, ROUTE_DEVICES,
     ROUTE_FORMAT_VERSION, ResourceShortage, ResourceUse, RouteDevice, RouteJob, RouteReport,
     place_and_route, render_routes_markdown, render_routes_text,
+};
+pub use silicon::{
+    CellTotals, LibertyLibrary, LibraryFigures, MacroChoice, MemoryFigures, MemoryTotals,
+    ModuleFigures, NOT_INCLUDED, SILICON_FORMAT_VERSION, SiliconError, SiliconJob, SiliconPath,
+    SiliconReport, map_to_silicon, render_silicon_markdown, render_silicon_text,
 };
 pub use speed::{FrameRate, most_clocks_per_frame};

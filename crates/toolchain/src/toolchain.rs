@@ -190,7 +190,7 @@ fn is_development_build(tool: Tool, banner: &str) -> bool {
         Tool::Ffprobe => banner.starts_with("ffprobe version N-"),
         Tool::Verilator => banner.contains("rev vUNKNOWN-built"),
         Tool::Iverilog | Tool::Vvp | Tool::Yosys | Tool::Cxx => false,
-        Tool::NextpnrEcp5 | Tool::NextpnrIce40 | Tool::NextpnrGowin => false,
+        Tool::NextpnrEcp5 | Tool::NextpnrIce40 | Tool::NextpnrGowin | Tool::OpenSta => false,
     }
 }
 

@@ -42,6 +42,8 @@ NEVER = [
     ("docs/guides/periphery.md", "foveate explore periphery $D", FOOTAGE),
     ("docs/guides/zones.md", "foveate simulate $D", "it needs footage that is not shipped"),
     ("docs/guides/zones.md", "scripts/figures/zones.py", "it needs footage and a network that are not shipped"),
+    ("docs/guides/silicon.md", "foveate estimate --preset paper --liberty sky130hd", "it needs libraries that are not shipped"),
+    ("docs/guides/silicon.md", "foveate estimate --preset raster --liberty", "it needs libraries that are not shipped"),
     ("docs/guides/python.md", "pip install .", "scripts/python.sh and scripts/artefacts.sh build and install the package"),
     ("docs/guides/python.md", "port = serial.Serial", BOARD),
     ("docs/guides/view.md", "foveate view out/packets.bin", "it ends at Ctrl-C; crates/cli/tests/cli/view.rs runs it"),

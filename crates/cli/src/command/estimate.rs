@@ -4,6 +4,7 @@
 
 mod compare;
 mod route;
+mod silicon;
 mod synthesis;
 
 use foveate_estimate::{render_markdown, render_text};
@@ -17,7 +18,9 @@ use synthesis::SynthesisTools;
 
 pub(crate) fn run(args: &EstimateArgs) -> Result<(), CliError> {
     let flow = SynthesisTools { toolchain: interrupt::toolchain()?, cache: Cache::from_env()? };
-    if args.compare {
+    if !args.liberty.is_empty() {
+        silicon::run(args, &flow)
+    } else if args.compare {
         compare::run(args, &flow)
     } else if args.place_and_route.is_empty() {
         estimate_one(args, &flow)

@@ -38,6 +38,7 @@ mod secrets;
 mod serial;
 mod served;
 mod signals;
+mod silicon;
 mod simulation;
 mod skipped;
 mod stress;

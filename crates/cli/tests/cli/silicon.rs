@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `foveate estimate --liberty`: area, timing and leakage in the cells of Debian's library, and the
+//! errors for libraries that cannot be used.
+
+use std::fs::{self, File};
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::{Tool, Toolchain};
+use serde_json::Value;
+
+use crate::common::{expect_failure, foveate, run_in, run_successfully};
+
+const LIBRARY: &str = "/usr/share/qflow/tech/osu018/osu018_stdcells.lib";
+const SMALL: [&str; 8] = [
+    "--preset",
+    "bare",
+    "--set",
+    "region.size=4",
+    "--set",
+    "frame={width=8,height=12}",
+    "--set",
+    "frame.pixel_bits=4",
+];
+
+/// The frame of a core of `raster`, which needs rows of four regions.
+const WIDE: [&str; 2] = ["--set", "frame.width=16"];
+
+/// Returns true if the tools are there; where tools are required, the library must be there, too.
+fn is_ready() -> bool {
+    require_tools(&[Tool::Yosys, Tool::OpenSta])
+        && (Path::new(LIBRARY).exists()
+            || std::env::var_os("FOVEATE_REQUIRE_TOOLS").is_none_or(|_| panic!("no {LIBRARY}")))
+        && Path::new(LIBRARY).exists()
+}
+
+fn report(folder: &Path, args: &[&str]) -> Value {
+    let command = [&["estimate", "--json", "--quiet"], args].concat();
+    serde_json::from_str(&run_successfully(folder, &command)).unwrap()
+}
+
+fn number(value: &Value, pointer: &str) -> f64 {
+    value.pointer(pointer).and_then(Value::as_f64).unwrap_or_else(|| panic!("{pointer}: {value}"))
+}
+
+/// Returns the area of every cell of a library in which each cell begins a line of its own, read
+/// without the reader of the program.
+fn areas(text: &str) -> Vec<(String, f64)> {
+    let cells = text.split("\ncell (").skip(1).map(|cell| {
+        let name = cell.split(')').next().unwrap().to_owned();
+        let area = cell.split("area : ").nth(1).unwrap().split(';').next().unwrap();
+        (name, area.trim().parse().unwrap())
+    });
+    cells.collect()
+}
+
+#[test]
+fn an_array_has_the_area_of_its_units_and_of_what_they_share() {
+    if !is_ready() {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let bare = report(dir.path(), &[&SMALL[..], &["--liberty"]].concat());
+    assert_eq!(bare["library"]["name"], "osu018_stdcells");
+    assert_eq!((bare["unit"]["count"].as_u64(), bare["regions"].as_u64()), (Some(6), Some(6)));
+    let [unit, shared, array] =
+        ["/unit/cells", "/shared", "/array"].map(|at| number(&bare, &format!("{at}/area_um2")));
+    assert!((array - (6.0 * unit + shared)).abs() < 1e-6 * array);
+    // The store of 16 pixels of 4 bits, and some registers, are flip-flops.
+    let flip_flops = number(&bare, "/unit/cells/flip_flops");
+    assert!((64.0..200.0).contains(&flip_flops), "{flip_flops}");
+    let areas = areas(&fs::read_to_string(LIBRARY).unwrap());
+    let area = |name: &str| areas.iter().find(|(own, _)| own == name).unwrap().1;
+    let expected = flip_flops * area("DFFPOSX1");
+    assert!((number(&bare, "/unit/cells/flip_flop_area_um2") - expected).abs() < 1e-6 * expected);
+    assert_eq!(number(&bare, "/library/gate_area_um2"), area("NAND2X1"));
+    // A path of some gates of 0.18 um, and a clock that it allows.
+    let ns = number(&bare, "/path/ns");
+    assert!((0.8..20.0).contains(&ns), "{ns}");
+    assert!((number(&bare, "/path/mhz") * ns - 1000.0).abs() < 1e-3);
+    for end in ["from", "to"] {
+        let name = bare["path"][end].as_str().unwrap();
+        assert!(name.contains("u_rpu.") && !name.contains("cell_"), "{name}");
+    }
+    // Leakage grows with the number of regions. The cells of an RPU differ a little with the names
+    // around it.
+    let larger = [&SMALL[..], &WIDE, &["--liberty", LIBRARY]].concat();
+    let ratio = number(&report(dir.path(), &larger), "/leakage_nw") / number(&bare, "/leakage_nw");
+    assert!((ratio - 2.0).abs() < 0.2, "{ratio}");
+}
+
+#[test]
+fn a_folded_array_and_a_core_are_mapped_deep_and_plain() {
+    if !is_ready() {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let serial = ["--set", "hardware={organization='serial',fold=2}"];
+    let raster = ["--set", "hardware={organization='raster'}"];
+    for organization in [serial, raster] {
+        let both = ["plain", "deep"].map(|pipelining| {
+            let deep = format!("hardware.pipelining='{pipelining}'");
+            let args = [&SMALL[..], &WIDE, &organization, &["--set", &deep, "--liberty"]].concat();
+            let report = report(dir.path(), &args);
+            let sum = number(&report, "/shared/area_um2")
+                + number(&report, "/unit/count") * number(&report, "/unit/cells/area_um2");
+            assert!((number(&report, "/array/area_um2") - sum).abs() < 1e-6 * sum);
+            report
+        });
+        // More registers and shorter paths; in a small core without a filter both are short.
+        let [plain, deep] = both.each_ref().map(|report| number(report, "/path/ns"));
+        assert!(deep < 1.15 * plain, "{organization:?}: {deep} and {plain} ns");
+        let [plain, deep] = both.each_ref().map(|report| number(report, "/array/flip_flops"));
+        assert!(deep > plain, "{organization:?}: {deep} and {plain} flip-flops");
+    }
+}
+
+#[test]
+fn large_memories_get_macros_that_fit() {
+    if !is_ready() {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let macros = dir.path().join("ram.lib");
+    let port = "bus (Q) { memory_read () { address : A; } }";
+    let cell = |name: &str, area: u32, ports: &str| {
+        format!(
+            "cell ({name}) {{ area : {area}; memory () {{ type : ram; address_width : 5; word_width : 8; }} {ports} }}\n"
+        )
+    };
+    let two = format!("{port} {port}");
+    let library = format!(
+        "library (ram) {{ nom_voltage : 1.8;\n{}{}}}",
+        cell("ONE", 100, port),
+        cell("TWO", 1000, &two)
+    );
+    fs::write(&macros, library).unwrap();
+    let args = |limit: &'static str| {
+        let base =
+            ["--set", "hardware={organization='raster'}", "--liberty", "--memory-limit", limit];
+        [&SMALL[..], &WIDE, &base].concat()
+    };
+    let none = report(dir.path(), &args("1000000"));
+    assert_eq!(none["memories"].as_array().unwrap().len(), 0);
+    let without = report(dir.path(), &args("63"));
+    let bits = number(&without, "/memory/bits");
+    assert!(bits >= 384.0 && bits == number(&without, "/memory/bits_without_macro"), "{without}");
+    assert!(number(&without, "/array/area_um2") < number(&none, "/array/area_um2"));
+    let with = report(dir.path(), &[&args("63")[..], &["--macros", "ram.lib"]].concat());
+    let chosen: Vec<_> = with["memories"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|own| !own["macros"].is_null())
+        .collect();
+    assert!(!chosen.is_empty(), "{with}");
+    for memory in &chosen {
+        assert_eq!(memory["macros"]["name"], "TWO");
+        let macros = memory["words"].as_u64().unwrap().div_ceil(32)
+            * memory["width"].as_u64().unwrap().div_ceil(8);
+        assert_eq!(memory["macros"]["count"].as_u64(), Some(macros));
+    }
+    let area: f64 =
+        chosen.iter().map(|own| number(own, "/macros/area_um2") * number(own, "/count")).sum();
+    assert_eq!(number(&with, "/memory/macro_area_um2"), area);
+    // The text fits in a terminal, and says what is missing.
+    let text = run_successfully(dir.path(), &[&["estimate", "--quiet"], &args("63")[..]].concat());
+    for words in ["no macro holds them", "have no macro", "Not included: wires", "gates: the"] {
+        assert!(text.split_whitespace().collect::<Vec<_>>().join(" ").contains(words), "{text}");
+    }
+    let wide = text.lines().find(|line| line.chars().count() > 80);
+    assert_eq!(wide, None);
+}
+
+#[test]
+fn a_compressed_library_gives_the_same_report() {
+    if !is_ready() {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let mut gzip =
+        GzEncoder::new(File::create(dir.path().join("cells.lib.gz")).unwrap(), Compression::fast());
+    gzip.write_all(&fs::read(LIBRARY).unwrap()).unwrap();
+    gzip.finish().unwrap();
+    let both = ["cells.lib.gz", LIBRARY].map(|path| [&SMALL[..], &["--liberty", path]].concat());
+    let [packed, plain] = both.map(|args| report(dir.path(), &args));
+    assert_eq!(packed, plain);
+    // Two libraries make two reports.
+    let twice = report(
+        dir.path(),
+        &[&SMALL[..], &["--liberty", LIBRARY, "--liberty", "cells.lib.gz"]].concat(),
+    );
+    assert_eq!(twice, Value::Array(vec![plain.clone(), plain]));
+}
+
+#[test]
+fn libraries_that_cannot_be_used_are_refused() {
+    if !is_ready() {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let text = fs::read_to_string(LIBRARY).unwrap();
+    let write = |name: &str, content: String| -> PathBuf {
+        fs::write(dir.path().join(name), content).unwrap();
+        name.into()
+    };
+    let (before, cell) = text.split_once("cell (DFFPOSX1)").unwrap();
+    let (body, after) = cell.split_once("cell (DFFSR)").unwrap();
+    let no_area = body.replacen("area : ", "other : ", 1);
+    write("area.lib", format!("{before}cell (DFFPOSX1){no_area}cell (DFFSR){after}"));
+    // A library without any flip-flop.
+    let (gates, _) = text.split_once("cell (DFFNEGX1)").unwrap();
+    write(
+        "gates.lib",
+        format!("{gates}cell (NAND2X1){}}}", between(&text, "cell (NAND2X1)", "cell (NAND3X1)")),
+    );
+    write(
+        "nothing.lib",
+        "library (nothing) { nom_voltage : 1.8; cell (X) { area : 1; } }".to_owned(),
+    );
+    write("cut.lib", text[..text.len() / 2].to_owned());
+    write("low.lib", "library (low) { nom_voltage : 1.2; cell (R) { area : 1; memory () { address_width : 5; word_width : 8; } } }".to_owned());
+    write("gate.lib", "library (g) { nom_voltage : 1.8; cell (X) { area : 1; } }".to_owned());
+    for (args, words) in [
+        (
+            &["--liberty", "area.lib"][..],
+            "the cell `DFFPOSX1` of the library `osu018_stdcells` has no area",
+        ),
+        (&["--liberty", "gates.lib"], "has no flip-flop"),
+        (&["--liberty", "nothing.lib"], "has no NAND of two inputs with an area"),
+        (&["--liberty", "cut.lib"], "`cut.lib` is not a liberty file that can be read, line"),
+        (&["--liberty", "none.lib"], "cannot read the library `none.lib`"),
+        (
+            &["--liberty", "--macros", "low.lib"],
+            "`osu018_stdcells` is for 1.8 V and `low` for 1.2 V",
+        ),
+        (&["--liberty", "--macros", "gate.lib"], "`gate.lib` has no memory"),
+    ] {
+        let command = [&["estimate", "--quiet"], &SMALL[..], args].concat();
+        expect_failure(dir.path(), 2, &command, &[words]);
+    }
+    for args in [&["--liberty", "--clock", "100"][..], &["--macros", "low.lib"]] {
+        assert_eq!(run_in(dir.path(), &[&["estimate"], args].concat()).code, 2);
+    }
+    let mut missing = foveate(&[&["estimate", "--quiet"], &SMALL[..], &["--liberty"]].concat());
+    let output = missing.env("FOVEATE_STA", "/nowhere/sta").output().unwrap();
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.code() == Some(3) && message.contains("`/nowhere/sta`"), "{message}");
+    let yosys = Toolchain::system().find(Tool::Yosys).unwrap().path;
+    let mut missing = foveate(&[&["estimate", "--quiet"], &SMALL[..], &["--liberty"]].concat());
+    let output =
+        missing.env("PATH", "/nowhere").env("FOVEATE_YOSYS", yosys).env_remove("FOVEATE_STA");
+    let output = output.output().unwrap();
+    let message = String::from_utf8(output.stderr).unwrap();
+    let is_explained =
+        message.contains("sta is not installed") && message.contains("apt-get install opensta");
+    assert!(output.status.code() == Some(3) && is_explained, "{message}");
+}
+
+fn between<'a>(text: &'a str, from: &str, to: &str) -> &'a str {
+    text.split_once(from).unwrap().1.split_once(to).unwrap().0
+}

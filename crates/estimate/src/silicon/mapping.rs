@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Maps an array to the cells of a library with Yosys. Large memories are cut out, and their ports
+//! become ports of the netlist.
+
+use foveate_toolchain::yosys::{self, YosysJob};
+use foveate_toolchain::{Cache, SynthesisJob, Tool, ToolRecord, Toolchain};
+use serde_json::Value;
+
+use super::error::SiliconError;
+use super::library::LibertyLibrary;
+use crate::netlist::AreaNetlist;
+
+const CELLS: &str = "cells.lib";
+const CONSTRAINTS: &str = "abc.constr";
+const BOX: &str = "memory_box.v";
+const CUT: &str = "memory_cut.v";
+const MEMORIES: &str = "memories.json";
+const NETLIST: &str = "netlist.json";
+const ONE_UNIT: &str = "one_unit.v";
+const NO_UNIT: &str = "no_unit.v";
+/// The module that stands for a memory that is cut out.
+const MEMORY_MODULE: &str = "foveate_memory";
+/// The module with the ports of a memory that is cut out.
+const BOX_TEXT: &str = include_str!("memory_box.v");
+/// The rule by which Yosys replaces a memory of more than `LIMIT` bits.
+const CUT_TEXT: &str = include_str!("memory_cut.v");
+
+/// The netlist of an array in the cells of a library.
+pub(super) struct MappedArray {
+    pub(super) tool: ToolRecord,
+    pub(super) netlist: AreaNetlist,
+    /// The netlist as JSON, for the names of nets.
+    pub(super) json: Value,
+    /// The netlist with one of its units. A whole array may have millions of cells, and the registers
+    /// that drive all of its units would have loads that a layout divides by buffers.
+    pub(super) one_unit: String,
+    /// The netlist without its units.
+    pub(super) no_unit: String,
+    pub(super) memories: Vec<CutMemory>,
+    /// True if gates were sized and buffers were added for their loads.
+    pub(super) is_sized: bool,
+}
+
+/// The memories of one size that are not in the netlist.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct CutMemory {
+    pub(super) name: String,
+    pub(super) width: u64,
+    pub(super) words: u64,
+    pub(super) reads: u64,
+    pub(super) writes: u64,
+    /// True if a word is read at a clock edge, as memories of a process do.
+    pub(super) is_clocked: bool,
+    /// The number of such memories in the array.
+    pub(super) count: u64,
+}
+
+/// Maps the array. Memories of more than `limit` bits are cut out.
+pub(super) fn map_array(
+    toolchain: &Toolchain,
+    cache: &Cache,
+    synthesis: &SynthesisJob,
+    library: &LibertyLibrary,
+    limit: u64,
+) -> Result<MappedArray, SiliconError> {
+    let version = toolchain.find(Tool::Yosys)?.banner;
+    let buffer = library.smallest_buffer();
+    let mut run = yosys::run(toolchain, cache, &mapping_job(synthesis, library, buffer, limit))?;
+    let mut file = |name| run.files.remove(name).expect("it is one of the wanted files");
+    let (before, after) = (file(MEMORIES), file(NETLIST));
+    let parsed = |json: &[u8]| {
+        AreaNetlist::parse(NETLIST, json)
+            .map_err(|error| SiliconError::Netlist { reason: error.to_string() })
+    };
+    let json = |bytes: &[u8]| {
+        serde_json::from_slice::<Value>(bytes)
+            .map_err(|error| SiliconError::Netlist { reason: error.to_string() })
+    };
+    Ok(MappedArray {
+        tool: ToolRecord {
+            name: "Yosys".to_owned(),
+            version,
+            flags: format!("synth -flatten, dfflibmap, abc; {} kept as a module", synthesis.unit),
+        },
+        memories: cut_memories(&parsed(&before)?, &json(&before)?, &synthesis.array)?,
+        netlist: parsed(&after)?,
+        json: json(&after)?,
+        one_unit: String::from_utf8_lossy(&file(ONE_UNIT)).into_owned(),
+        no_unit: String::from_utf8_lossy(&file(NO_UNIT)).into_owned(),
+        is_sized: buffer.is_some(),
+    })
+}
+
+fn mapping_job(
+    synthesis: &SynthesisJob,
+    library: &LibertyLibrary,
+    buffer: Option<&str>,
+    limit: u64,
+) -> YosysJob {
+    let SynthesisJob { sources, unit, array, parameters } = synthesis;
+    let read = sources.iter().map(|(name, _)| name).filter(|name| !name.ends_with(".vh"));
+    let read: String = read.map(|name| format!("read_verilog -I. {name}\n")).collect();
+    let set: String =
+        parameters.iter().map(|(name, value)| format!(" -set {name} {value}")).collect();
+    let set = if set.is_empty() { set } else { format!("chparam{set} {array}\n") };
+    let constraints =
+        if buffer.is_some() { format!(" -constr {CONSTRAINTS}") } else { String::new() };
+    // Instances get plain names and buses become single nets, because OpenSTA of 2019 reads no others.
+    let script = format!(
+        "{read}{set}hierarchy -check -top {array}\n\
+         setattr -mod -set keep_hierarchy 1 {unit}\n\
+         proc\nflatten\nopt_expr\nopt_clean\nmemory -nomap\n\
+         read_verilog {BOX}\n\
+         techmap -autoproc -map {CUT}\n\
+         opt_clean\n\
+         write_json {MEMORIES}\n\
+         expose -evert t:{MEMORY_MODULE}\n\
+         synth -top {array} -flatten\n\
+         dfflibmap -liberty {CELLS}\n\
+         abc -liberty {CELLS}{constraints}\n\
+         setundef -zero\n\
+         opt_clean -purge\n\
+         rename -enumerate -pattern cell_%\n\
+         splitnets -ports\n\
+         opt_clean -purge\n\
+         delete =A:blackbox\n\
+         write_json {NETLIST}\n\
+         select -set unit {array}/t:*{unit} %R1\n\
+         delete {array}/t:*{unit} @unit %d\n\
+         write_verilog -noattr -noexpr -nohex -nodec {ONE_UNIT}\n\
+         delete {array}/t:*{unit}\n\
+         write_verilog -noattr -noexpr -nohex -nodec {NO_UNIT}\n"
+    );
+    let mut sources = sources.clone();
+    sources.push((CELLS.to_owned(), library.text.clone()));
+    sources.push((BOX.to_owned(), BOX_TEXT.to_owned()));
+    sources.push((CUT.to_owned(), CUT_TEXT.replace("LIMIT", &limit.to_string())));
+    if let Some(buffer) = buffer {
+        let text = format!("set_driving_cell {buffer}\nset_load 0.02\n");
+        sources.push((CONSTRAINTS.to_owned(), text));
+    }
+    let outputs = [MEMORIES, NETLIST, ONE_UNIT, NO_UNIT].map(str::to_owned).to_vec();
+    YosysJob { sources, script, outputs }
+}
+
+/// Lists the memories that were cut out, those of one size and module together.
+fn cut_memories(
+    netlist: &AreaNetlist,
+    json: &Value,
+    array: &str,
+) -> Result<Vec<CutMemory>, SiliconError> {
+    let unreadable = |reason: String| SiliconError::Netlist { reason };
+    let counts = netlist.instances(array, &[]).map_err(|error| unreadable(error.to_string()))?;
+    let modules = json["modules"].as_object().into_iter().flatten();
+    let mut found = Vec::new();
+    for (module, content) in modules {
+        let times = if module == array { 1 } else { counts.get(module).copied().unwrap_or(0) };
+        let cells = content["cells"].as_object().into_iter().flatten();
+        for (name, cell) in cells.filter(|(_, cell)| cell["type"] == MEMORY_MODULE) {
+            let number = |parameter: &str| {
+                let text = cell["parameters"][parameter].as_str().unwrap_or_default();
+                u64::from_str_radix(text, 2).map_err(|_| {
+                    unreadable(format!("the memory `{name}` has no number `{parameter}`"))
+                })
+            };
+            found.push(CutMemory {
+                name: name.trim_end_matches(".u_memory").to_owned(),
+                width: number("WIDTH")?,
+                words: number("WORDS")?,
+                reads: number("READS")?,
+                writes: number("WRITES")?,
+                is_clocked: number("CLOCKED")? != 0,
+                count: times,
+            });
+        }
+    }
+    found.retain(|memory| memory.count > 0);
+    Ok(found)
+}

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Area, timing and leakage of a design in the cells of a process.
+//!
+//! Yosys maps the Verilog to the cells of a liberty file, and OpenSTA times the netlist. The files are
+//! the user's own: those of open processes, or of a foundry.
+
+mod cell_totals;
+mod error;
+mod job;
+mod liberty_text;
+mod library;
+mod logic_function;
+mod mapping;
+mod memory_plan;
+mod net_names;
+mod render;
+mod report;
+mod timing;
+
+pub use cell_totals::CellTotals;
+pub use error::SiliconError;
+pub use job::{SiliconJob, map_to_silicon};
+pub use library::LibertyLibrary;
+pub use memory_plan::{MacroChoice, MemoryFigures};
+pub use render::{render_silicon_markdown, render_silicon_text};
+pub use report::{
+    LibraryFigures, MemoryTotals, ModuleFigures, NOT_INCLUDED, SILICON_FORMAT_VERSION,
+    SiliconReport,
+};
+pub use timing::SiliconPath;

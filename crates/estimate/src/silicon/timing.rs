@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The longest path and the leakage of a netlist, from OpenSTA.
+
+use foveate_toolchain::opensta::{self, OpenStaJob};
+use foveate_toolchain::{Cache, Tool, ToolRecord, Toolchain};
+use serde::{Deserialize, Serialize};
+
+use super::error::SiliconError;
+use super::library::LibertyLibrary;
+
+const CELLS: &str = "cells.lib";
+const NETLIST: &str = "netlist.v";
+/// The period of the clock in nanoseconds. OpenSTA computes with 24 bits, so a longer one would cost
+/// digits of the path.
+const PERIOD_NS: f64 = 1000.0;
+/// The lines between which the script prints the reports.
+const PATH_MARK: &str = "foveate: longest path";
+const POWER_MARK: &str = "foveate: power";
+const END_MARK: &str = "foveate: end";
+
+/// The longest path of an array with one of its units, from register to register, or from or to its ports.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SiliconPath {
+    /// The delay with the setup time of its end, in nanoseconds.
+    pub ns: f64,
+    /// The highest clock in MHz.
+    pub mhz: f64,
+    /// The number of cells on the path.
+    pub cells: u64,
+    /// The register or port at which the path begins.
+    pub from: String,
+    /// The register or port at which the path ends.
+    pub to: String,
+}
+
+/// What OpenSTA says of a module.
+pub(super) struct ModuleTiming {
+    pub(super) tool: ToolRecord,
+    /// `None` if no path leads from a register or port to another.
+    pub(super) path: Option<SiliconPath>,
+    pub(super) leakage_nw: f64,
+}
+
+/// Times the module `top` of a netlist.
+pub(super) fn time_module(
+    toolchain: &Toolchain,
+    cache: &Cache,
+    (verilog, top, clock): (&str, &str, &str),
+    library: &LibertyLibrary,
+) -> Result<ModuleTiming, SiliconError> {
+    let version = toolchain.find(Tool::OpenSta)?.banner;
+    let unit = library.time_unit_ns;
+    // Leakage does not depend on the activity. Without one, OpenSTA of 2019 would propagate that of
+    // the ports, and crashes in large netlists.
+    let script = format!(
+        "read_liberty {CELLS}\n\
+         read_verilog {NETLIST}\n\
+         link_design {top}\n\
+         create_clock -name clock -period {period} [get_ports {clock}]\n\
+         set_input_delay 0 -clock clock [all_inputs]\n\
+         set_output_delay 0 -clock clock [all_outputs]\n\
+         puts \"{PATH_MARK}\"\n\
+         report_checks -path_delay max -digits 6\n\
+         puts \"{POWER_MARK}\"\n\
+         set_power_activity -global -activity 0.1\n\
+         report_power -digits 6\n\
+         puts \"{END_MARK}\"\n",
+        period = PERIOD_NS / unit
+    );
+    let files =
+        vec![(CELLS.to_owned(), library.text.clone()), (NETLIST.to_owned(), verilog.to_owned())];
+    let log = opensta::run(toolchain, cache, &OpenStaJob { files, script })?;
+    let failed = |reason: &str| SiliconError::Timing { reason: reason.to_owned() };
+    if let Some(error) = log.lines().find(|line| line.starts_with("Error")) {
+        return Err(failed(error));
+    }
+    let part = |from: &str, to: &str| {
+        let behind = log.split_once(from).map(|(_, behind)| behind);
+        behind.and_then(|text| text.split_once(to)).map(|(part, _)| part)
+    };
+    let checks = part(PATH_MARK, POWER_MARK).ok_or_else(|| failed("it has printed no path"))?;
+    let power = part(POWER_MARK, END_MARK).ok_or_else(|| failed("it has printed no power"))?;
+    Ok(ModuleTiming {
+        tool: ToolRecord {
+            name: "OpenSTA".to_owned(),
+            version,
+            flags: "ideal clock, no wires, ports without delay and load".to_owned(),
+        },
+        path: path_of_report(checks, unit).map_err(failed)?,
+        leakage_nw: leakage_nw(power).ok_or_else(|| failed("its report has no leakage"))?,
+    })
+}
+
+/// Reads the report of the longest path, if there is one.
+fn path_of_report(report: &str, unit: f64) -> Result<Option<SiliconPath>, &'static str> {
+    if report.contains("No paths found") {
+        return Ok(None);
+    }
+    let end = |name: &str| {
+        let line = report.lines().find_map(|line| line.trim().strip_prefix(name))?;
+        line.split_whitespace().next().map(str::to_owned)
+    };
+    let slack = report.lines().find(|line| line.contains(" slack "));
+    let slack = slack.and_then(|line| line.split_whitespace().next()?.parse::<f64>().ok());
+    let slack = slack.ok_or("its report has no slack")?;
+    let ns = PERIOD_NS - slack * unit;
+    // A line of the path has an edge and a pin.
+    let is_output = |line: &&str| {
+        let mut words = line.split_whitespace().skip(2);
+        matches!(words.next(), Some("^" | "v")) && words.next().is_some_and(|pin| pin.contains('/'))
+    };
+    let arrival = report.split("data arrival time").next().unwrap_or_default();
+    let pins = arrival.lines().filter(is_output).count() as u64;
+    Ok(Some(SiliconPath {
+        ns,
+        mhz: 1000.0 / ns,
+        // The first pin is the clock of the register, and the last one its input.
+        cells: pins.saturating_sub(2),
+        from: end("Startpoint:").ok_or("the path has no start")?,
+        to: end("Endpoint:").ok_or("the path has no end")?,
+    }))
+}
+
+/// Reads the leakage from the total of the report of power, which is in watts.
+fn leakage_nw(report: &str) -> Option<f64> {
+    let total = report.lines().find(|line| line.starts_with("Total"))?;
+    let watts: f64 = total.split_whitespace().nth(3)?.parse().ok()?;
+    Some(watts * 1e9)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const CHECKS: &str = "
+Startpoint: cell_7 (rising edge-triggered flip-flop clocked by clock)
+Endpoint: u_core/cell_9
+          (rising edge-triggered flip-flop clocked by clock)
+Path Group: clock
+    Delay      Time   Description
+-------------------------------------------------------------
+   0.0000    0.0000   clock clock (rise edge)
+   0.0000    0.0000   clock network delay (ideal)
+   0.0000    0.0000 ^ cell_7/CLK (DFFPOSX1)
+   0.5026    0.5026 v cell_7/Q (DFFPOSX1)
+   1.1136    1.6162 v cell_8/Y (OR2X1)
+   0.0000    1.6162 v u_core/cell_9/D (DFFPOSX1)
+             1.6162   data arrival time
+  1000.0000  1000.0000   clock clock (rise edge)
+         998.0000 ^ u_core/cell_9/CLK (DFFPOSX1)
+-------------------------------------------------------------
+           998.0000   slack (MET)
+";
+
+    #[test]
+    fn a_report_of_a_path_is_read() {
+        let path = path_of_report(CHECKS, 1.0).unwrap().unwrap();
+        assert_eq!((path.from.as_str(), path.to.as_str()), ("cell_7", "u_core/cell_9"));
+        assert_eq!((path.ns, path.mhz, path.cells), (2.0, 500.0, 2));
+        assert_eq!(path_of_report("No paths found.", 1.0), Ok(None));
+        assert!(path_of_report("nothing", 1.0).is_err());
+    }
+
+    #[test]
+    fn the_leakage_is_that_of_the_total() {
+        let report = "Group  Internal Switching Leakage Total\nSequential 1.0e-3 2.0e-5 3.0e-9 1.0e-3 60%\n\
+                      Total   2.0e-03 2.0e-04 2.7e-07 2.6e-03 100.0%\n";
+        assert_eq!(leakage_nw(report).map(f64::round), Some(270.0));
+        assert_eq!(leakage_nw("nothing"), None);
+    }
+}
