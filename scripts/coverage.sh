@@ -104,11 +104,11 @@ if [ "${1:-}" != --quick ]; then
         "bare $axi --rounds 3 --set region.size=8 --set frame={width=32,height=16} --set hardware.store='external' --set hardware.thresholds='constant'"
         "bare $axi --rounds 3 --set region.size=5 --set frame={width=16,height=12} --set hardware.store='external' --set hardware.thresholds='constant'"
         "paper --level rcm --grid 3x2 --set region.size=4 $means --set spatial=$all $zones"
-        "bare --level rcm --grid 3x2 $deep --set region.size=5 --set temporal.reference='last-sent' --set spatial=[$edge,$fraction] $zones"
+        "bare --level rcm --grid 3x2 $deep --rounds 4 --set region.size=5 --set temporal.reference='last-sent' --set spatial=[$edge,$fraction] $zones"
         "paper $serial --set region.size=4 --set hardware.fold=2 $means --set spatial=$all $zones"
         "bare $serial $deep --set region.size=5 --set hardware.feed='raster' --set temporal.reference='last-sent' --set spatial=[$edge,{feature='flow',radius=2}] $zones"
         "paper $raster --grid 5x4 --set region.size=4 $means --set spatial=$all $zones"
-        "bare $raster --grid 8x5 $deep --set region.size=4 --set hardware.pixels_per_clock=2 --set temporal.reference='last-sent' --set spatial=[$corner,$fraction] $zones"
+        "bare $raster --grid 8x4 $deep --set region.size=4 --set hardware.pixels_per_clock=2 --set temporal.reference='last-sent' --set spatial=[$corner,$fraction] $zones"
         "bare $axi --rounds 3 --set region.size=4 --set frame={width=32,height=20} $means --set spatial=[$edge,{feature='mad',min_score=4}] $zones"
     )
 fi
