@@ -70,7 +70,7 @@ pub fn estimate(
     check_interrupt()?;
     let netlist = AreaNetlist::parse(NETLIST, &synthesis.json)?;
     check_interrupt()?;
-    let units = job.units(&netlist)?;
+    let units = job.units(&netlist, &job.synthesis)?;
     let unit_modules: Vec<&str> = units.iter().map(String::as_str).collect();
     let paths = longest_paths(NETLIST, &synthesis.json, &[unit_modules[0], &job.synthesis.array])?;
     check_interrupt()?;
@@ -123,26 +123,30 @@ impl EstimateJob {
         self.bus.as_ref().unwrap_or(&self.synthesis)
     }
 
-    /// Returns the modules of the netlist that are made from the unit, the most frequent first. The
-    /// netlist has one such module for each set of parameters.
-    pub(crate) fn units(&self, netlist: &AreaNetlist) -> Result<Vec<String>, EstimateError> {
+    /// Returns the modules of the netlist of a synthesis that are made from the unit, the most
+    /// frequent first. The netlist has one such module for each set of parameters.
+    pub(crate) fn units(
+        &self,
+        netlist: &AreaNetlist,
+        synthesis: &SynthesisJob,
+    ) -> Result<Vec<String>, EstimateError> {
         let mut found = Vec::new();
-        for (name, count) in netlist.instances(&self.synthesis.array, &[])? {
-            if netlist.module(&name)?.source_name == self.synthesis.unit {
+        for (name, count) in netlist.instances(&synthesis.array, &[])? {
+            if netlist.module(&name)?.source_name == synthesis.unit {
                 found.push((count, name));
             }
         }
         found.sort_by(|a, b| b.cmp(a));
         let total = found.iter().map(|(count, _)| count).sum::<u64>();
         if total == 0 {
-            netlist.module(&self.synthesis.unit)?;
+            netlist.module(&synthesis.unit)?;
         }
         if total == self.units && total > 0 {
             return Ok(found.into_iter().map(|(_, name)| name).collect());
         }
         Err(EstimateError::UnitCount {
-            array: self.synthesis.array.clone(),
-            unit: self.synthesis.unit.clone(),
+            array: synthesis.array.clone(),
+            unit: synthesis.unit.clone(),
             expected: self.units,
             found: total,
         })

@@ -77,6 +77,11 @@ fn an_array_has_the_area_of_its_units_and_of_what_they_share() {
     let expected = flip_flops * area("DFFPOSX1");
     assert!((number(&bare, "/unit/cells/flip_flop_area_um2") - expected).abs() < 1e-6 * expected);
     assert_eq!(number(&bare, "/library/gate_area_um2"), area("NAND2X1"));
+    // Each leaf module has its own row.
+    let leaves = bare["leaves"].as_array().unwrap();
+    assert_eq!(leaves[0]["module"], "rpu");
+    let store = leaves.iter().find(|leaf| leaf["module"] == "frame_store").unwrap();
+    assert_eq!((number(store, "/instances"), number(store, "/cells/flip_flops")), (1.0, 64.0));
     // A path of some gates of 0.18 um, and a clock that it allows.
     let ns = number(&bare, "/path/ns");
     assert!((0.8..20.0).contains(&ns), "{ns}");
@@ -116,6 +121,20 @@ fn a_folded_array_and_a_core_are_mapped_deep_and_plain() {
         let [plain, deep] = both.each_ref().map(|report| number(report, "/array/flip_flops"));
         assert!(deep > plain, "{organization:?}: {deep} and {plain} flip-flops");
     }
+}
+
+#[test]
+fn a_core_on_axi_is_mapped_with_the_parts_around_its_array() {
+    if !is_ready() {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let shared = ["ports", "axi"].map(|interface| {
+        let hardware = format!("hardware={{organization='raster',interface='{interface}'}}");
+        let args = [&SMALL[..], &WIDE, &["--set", &hardware, "--liberty"]].concat();
+        number(&report(dir.path(), &args), "/shared/flip_flops")
+    });
+    assert!(shared[1] > shared[0] + 500.0, "{shared:?}");
 }
 
 #[test]

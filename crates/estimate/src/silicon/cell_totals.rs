@@ -35,10 +35,23 @@ impl CellTotals {
         let all = std::iter::once((top, 1)).chain(own.map(|(name, &count)| (name.as_str(), count)));
         let mut total = Self::default();
         for (name, times) in all {
-            let module = netlist.module(name).map_err(|error| unusable(error.to_string()))?;
-            for (cell, &count) in &module.cells {
-                total.add(library, (&module.source_name, cell), count, times)?;
-            }
+            total = total.plus(Self::of_own_cells(netlist, library, name)?, times);
+        }
+        Ok(total)
+    }
+
+    /// Adds up the cells of a module without the modules inside it.
+    pub(super) fn of_own_cells(
+        netlist: &AreaNetlist,
+        library: &LibertyLibrary,
+        name: &str,
+    ) -> Result<Self, SiliconError> {
+        let unusable = |error: crate::EstimateError| error.to_string();
+        let module = netlist.module(name).map_err(unusable);
+        let module = module.map_err(|reason| SiliconError::Netlist { reason })?;
+        let mut total = Self::default();
+        for (cell, &count) in &module.cells {
+            total.add(library, (&module.source_name, cell), count)?;
         }
         Ok(total)
     }
@@ -48,7 +61,6 @@ impl CellTotals {
         library: &LibertyLibrary,
         (module, name): (&str, &str),
         count: u64,
-        times: u64,
     ) -> Result<(), SiliconError> {
         let Some(cell) = library.cells.get(name) else {
             return Err(SiliconError::Unmapped {
@@ -63,11 +75,11 @@ impl CellTotals {
             library: library.name.clone(),
         })?;
         #[allow(clippy::cast_precision_loss, reason = "there are fewer than 2^53 cells")]
-        let area = area * (count * times) as f64;
-        self.cells += count * times;
+        let area = area * count as f64;
+        self.cells += count;
         self.area_um2 += area;
         if cell.role == CellRole::FlipFlop {
-            self.flip_flops += count * times;
+            self.flip_flops += count;
             self.flip_flop_area_um2 += area;
         }
         Ok(())
@@ -84,5 +96,42 @@ impl CellTotals {
             area_um2: self.area_um2 + other.area_um2 * factor,
             flip_flop_area_um2: self.flip_flop_area_um2 + other.flip_flop_area_um2 * factor,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn totals(types: &[&str]) -> Result<CellTotals, SiliconError> {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("a.lib");
+        let cells =
+            "cell (DFF) { area : 20; ff (IQ, IQN) { } } cell (INV) { area : 3.5; } cell (RAW) { }";
+        std::fs::write(&path, format!("library (a) {{ {cells} }}")).unwrap();
+        let cells: serde_json::Map<_, _> = types
+            .iter()
+            .enumerate()
+            .map(|(at, kind)| (format!("c{at}"), serde_json::json!({ "type": kind })))
+            .collect();
+        let inner = serde_json::json!({ "cells": { "d": { "type": "DFF" } } });
+        let json = serde_json::json!({ "modules": { "top": { "cells": cells }, "inner": inner } });
+        let netlist = AreaNetlist::parse("netlist", json.to_string().as_bytes()).unwrap();
+        CellTotals::of_module(&netlist, &LibertyLibrary::read(&path)?, "top", &[])
+    }
+
+    #[test]
+    fn cells_of_all_modules_are_added_up() {
+        let found = totals(&["INV", "INV", "DFF", "inner", "inner"]).unwrap();
+        assert_eq!((found.cells, found.flip_flops), (5, 3));
+        assert_eq!((found.area_um2, found.flip_flop_area_um2), (67.0, 60.0));
+    }
+
+    #[test]
+    fn cells_without_an_area_and_unmapped_cells_are_errors() {
+        let message = totals(&["INV", "$_DLATCH_P_", "$_DLATCH_P_"]).unwrap_err().to_string();
+        assert!(message.contains("`top` has 2 cells `$_DLATCH_P_`"), "{message}");
+        let message = totals(&["RAW"]).unwrap_err().to_string();
+        assert!(message.contains("the cell `RAW` of the library `a` has no area"), "{message}");
     }
 }

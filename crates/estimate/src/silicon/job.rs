@@ -2,13 +2,14 @@
 //! Maps a design to a library and times it.
 
 use foveate_design::Design;
-use foveate_emit::Top;
-use foveate_toolchain::{Cache, Toolchain, sources_sha256};
+use foveate_emit::{AXI_CLOCK, Top};
+use foveate_toolchain::{Cache, SynthesisJob, Toolchain, sources_sha256};
 
 use super::cell_totals::CellTotals;
 use super::error::SiliconError;
+use super::leaves::list_leaves;
 use super::library::{CellRole, LibertyLibrary};
-use super::mapping::{MappedArray, map_array};
+use super::mapping::{MappedArray, map_array, map_leaves};
 use super::memory_plan::plan_memory;
 use super::net_names::source_name;
 use super::report::{
@@ -18,8 +19,8 @@ use super::timing::{ModuleTiming, time_module};
 use crate::EstimateJob;
 use crate::speed::clocks_as_float;
 
-/// The clock port of every array and unit.
-const CLOCK: &str = "clk_i";
+/// The clock port of every array.
+const ARRAY_CLOCK: &str = "clk_i";
 
 /// A design to map to the cells of a library.
 #[derive(Clone, Debug)]
@@ -28,6 +29,8 @@ pub struct SiliconJob {
     pub design: EstimateJob,
     /// The pixels of a region along one side.
     pub region_size: u32,
+    /// The module whose leaves are listed.
+    pub leaves_of: String,
     /// The largest memory in bits that becomes flip-flops.
     pub memory_limit: u64,
 }
@@ -39,6 +42,7 @@ impl SiliconJob {
         Self {
             design: EstimateJob::for_design(design, Top::Rcm),
             region_size: design.region_size(),
+            leaves_of: design.unit().area_module.to_owned(),
             memory_limit,
         }
     }
@@ -57,7 +61,8 @@ pub fn map_to_silicon(
     (library, macros): (&LibertyLibrary, &[LibertyLibrary]),
 ) -> Result<SiliconReport, SiliconError> {
     check_libraries(library, macros)?;
-    let synthesis = &job.design.synthesis;
+    let synthesis = job.design.top_synthesis();
+    let clock = if job.design.bus.is_some() { AXI_CLOCK } else { ARRAY_CLOCK };
     let gate_area_um2 = library.gate_area().ok_or_else(|| SiliconError::MissingCell {
         library: library.name.clone(),
         missing: "NAND of two inputs with an area",
@@ -68,9 +73,11 @@ pub fn map_to_silicon(
         return Err(SiliconError::MissingCell { library, missing });
     }
     let mapped = map_array(toolchain, cache, synthesis, library, job.memory_limit)?;
-    let (unit, shared) = areas(&mapped, job, library)?;
+    let (unit, shared) = areas(&mapped, (job, synthesis), library)?;
+    let within = (job.leaves_of.as_str(), job.memory_limit);
+    let leaves = map_leaves(toolchain, cache, &job.design.synthesis, library, within)?;
     let time =
-        |verilog: &str| time_module(toolchain, cache, (verilog, &synthesis.array, CLOCK), library);
+        |verilog: &str| time_module(toolchain, cache, (verilog, &synthesis.array, clock), library);
     let ModuleTiming { tool: timer, path, leakage_nw } = time(&mapped.one_unit)?;
     let mut path = path.ok_or_else(|| SiliconError::Timing {
         reason: "there is no path between registers or ports".to_owned(),
@@ -104,6 +111,7 @@ pub fn map_to_silicon(
         unit: ModuleFigures { name: job.design.unit_name.clone(), count: units, cells: unit },
         shared,
         array: shared.plus(unit, units),
+        leaves: list_leaves(&leaves, library, &job.leaves_of)?,
         memory_limit: job.memory_limit,
         memory: MemoryTotals::of_memories(&memories),
         memories,
@@ -117,13 +125,13 @@ pub fn map_to_silicon(
 /// units share.
 fn areas(
     mapped: &MappedArray,
-    job: &SiliconJob,
+    (job, synthesis): (&SiliconJob, &SynthesisJob),
     library: &LibertyLibrary,
 ) -> Result<(CellTotals, CellTotals), SiliconError> {
     let unusable =
         |error: crate::EstimateError| SiliconError::Netlist { reason: error.to_string() };
-    let units = job.design.units(&mapped.netlist).map_err(unusable)?;
-    let array = &job.design.synthesis.array;
+    let units = job.design.units(&mapped.netlist, synthesis).map_err(unusable)?;
+    let array = &synthesis.array;
     let names: Vec<&str> = units.iter().map(String::as_str).collect();
     let unit = CellTotals::of_module(&mapped.netlist, library, names[0], &[])?;
     if names[0] == array {

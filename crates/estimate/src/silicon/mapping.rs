@@ -3,7 +3,7 @@
 //! become ports of the netlist.
 
 use foveate_toolchain::yosys::{self, YosysJob};
-use foveate_toolchain::{Cache, SynthesisJob, Tool, ToolRecord, Toolchain};
+use foveate_toolchain::{Cache, Source, SynthesisJob, Tool, ToolRecord, Toolchain};
 use serde_json::Value;
 
 use super::error::SiliconError;
@@ -64,8 +64,7 @@ pub(super) fn map_array(
     limit: u64,
 ) -> Result<MappedArray, SiliconError> {
     let version = toolchain.find(Tool::Yosys)?.banner;
-    let buffer = library.smallest_buffer();
-    let mut run = yosys::run(toolchain, cache, &mapping_job(synthesis, library, buffer, limit))?;
+    let mut run = yosys::run(toolchain, cache, &mapping_job(synthesis, library, limit))?;
     let mut file = |name| run.files.remove(name).expect("it is one of the wanted files");
     let (before, after) = (file(MEMORIES), file(NETLIST));
     let parsed = |json: &[u8]| {
@@ -87,39 +86,39 @@ pub(super) fn map_array(
         json: json(&after)?,
         one_unit: String::from_utf8_lossy(&file(ONE_UNIT)).into_owned(),
         no_unit: String::from_utf8_lossy(&file(NO_UNIT)).into_owned(),
-        is_sized: buffer.is_some(),
+        is_sized: library.smallest_buffer().is_some(),
     })
 }
 
-fn mapping_job(
+/// Maps a module with its leaves as separate modules. Returns the netlist.
+pub(super) fn map_leaves(
+    toolchain: &Toolchain,
+    cache: &Cache,
     synthesis: &SynthesisJob,
     library: &LibertyLibrary,
-    buffer: Option<&str>,
-    limit: u64,
-) -> YosysJob {
-    let SynthesisJob { sources, unit, array, parameters } = synthesis;
-    let read = sources.iter().map(|(name, _)| name).filter(|name| !name.ends_with(".vh"));
-    let read: String = read.map(|name| format!("read_verilog -I. {name}\n")).collect();
+    (top, limit): (&str, u64),
+) -> Result<AreaNetlist, SiliconError> {
+    let script = format!(
+        "{}synth -top {top}\n{}delete =A:blackbox\nwrite_json {NETLIST}\n",
+        cut_commands(synthesis, "", top, "", ""),
+        cell_commands(library.smallest_buffer())
+    );
+    let (sources, outputs) = (job_sources(synthesis, library, limit), vec![NETLIST.to_owned()]);
+    let mut run = yosys::run(toolchain, cache, &YosysJob { sources, script, outputs })?;
+    let json = run.files.remove(NETLIST).expect("it is the wanted file");
+    AreaNetlist::parse(NETLIST, &json)
+        .map_err(|error| SiliconError::Netlist { reason: error.to_string() })
+}
+
+fn mapping_job(synthesis: &SynthesisJob, library: &LibertyLibrary, limit: u64) -> YosysJob {
+    let SynthesisJob { unit, array, parameters, .. } = synthesis;
     let set: String =
         parameters.iter().map(|(name, value)| format!(" -set {name} {value}")).collect();
     let set = if set.is_empty() { set } else { format!("chparam{set} {array}\n") };
-    let constraints =
-        if buffer.is_some() { format!(" -constr {CONSTRAINTS}") } else { String::new() };
+    let keep = format!("setattr -mod -set keep_hierarchy 1 {unit}\n");
     // Instances get plain names and buses become single nets, because OpenSTA of 2019 reads no others.
     let script = format!(
-        "{read}{set}hierarchy -check -top {array}\n\
-         setattr -mod -set keep_hierarchy 1 {unit}\n\
-         proc\nflatten\nopt_expr\nopt_clean\nmemory -nomap\n\
-         read_verilog {BOX}\n\
-         techmap -autoproc -map {CUT}\n\
-         opt_clean\n\
-         write_json {MEMORIES}\n\
-         expose -evert t:{MEMORY_MODULE}\n\
-         synth -top {array} -flatten\n\
-         dfflibmap -liberty {CELLS}\n\
-         abc -liberty {CELLS}{constraints}\n\
-         setundef -zero\n\
-         opt_clean -purge\n\
+        "{}synth -top {array} -flatten\n{}\
          rename -enumerate -pattern cell_%\n\
          splitnets -ports\n\
          opt_clean -purge\n\
@@ -129,18 +128,58 @@ fn mapping_job(
          delete {array}/t:*{unit} @unit %d\n\
          write_verilog -noattr -noexpr -nohex -nodec {ONE_UNIT}\n\
          delete {array}/t:*{unit}\n\
-         write_verilog -noattr -noexpr -nohex -nodec {NO_UNIT}\n"
+         write_verilog -noattr -noexpr -nohex -nodec {NO_UNIT}\n",
+        cut_commands(synthesis, &set, array, &keep, "flatten\n"),
+        cell_commands(library.smallest_buffer())
     );
-    let mut sources = sources.clone();
+    let outputs = [MEMORIES, NETLIST, ONE_UNIT, NO_UNIT].map(str::to_owned).to_vec();
+    YosysJob { sources: job_sources(synthesis, library, limit), script, outputs }
+}
+
+/// Returns the commands that read the sources and cut large memories out.
+fn cut_commands(
+    synthesis: &SynthesisJob,
+    set: &str,
+    top: &str,
+    keep: &str,
+    flatten: &str,
+) -> String {
+    let names = synthesis.sources.iter().map(|(name, _)| name);
+    let read = names.filter(|name| !name.ends_with(".vh"));
+    let read: String = read.map(|name| format!("read_verilog -I. {name}\n")).collect();
+    format!(
+        "{read}{set}hierarchy -check -top {top}\n{keep}\
+         proc\n{flatten}opt_expr\nopt_clean\nmemory -nomap\n\
+         read_verilog {BOX}\n\
+         techmap -autoproc -map {CUT}\n\
+         opt_clean\n\
+         write_json {MEMORIES}\n\
+         expose -evert t:{MEMORY_MODULE}\n"
+    )
+}
+
+/// Returns the commands that replace gates and registers by cells of the library.
+fn cell_commands(buffer: Option<&str>) -> String {
+    let constraints = buffer.map_or_else(String::new, |_| format!(" -constr {CONSTRAINTS}"));
+    format!(
+        "dfflibmap -liberty {CELLS}\n\
+         abc -liberty {CELLS}{constraints}\n\
+         setundef -zero\n\
+         opt_clean -purge\n"
+    )
+}
+
+/// Returns the files that the script reads.
+fn job_sources(synthesis: &SynthesisJob, library: &LibertyLibrary, limit: u64) -> Vec<Source> {
+    let mut sources = synthesis.sources.clone();
     sources.push((CELLS.to_owned(), library.text.clone()));
     sources.push((BOX.to_owned(), BOX_TEXT.to_owned()));
     sources.push((CUT.to_owned(), CUT_TEXT.replace("LIMIT", &limit.to_string())));
-    if let Some(buffer) = buffer {
+    if let Some(buffer) = library.smallest_buffer() {
         let text = format!("set_driving_cell {buffer}\nset_load 0.02\n");
         sources.push((CONSTRAINTS.to_owned(), text));
     }
-    let outputs = [MEMORIES, NETLIST, ONE_UNIT, NO_UNIT].map(str::to_owned).to_vec();
-    YosysJob { sources, script, outputs }
+    sources
 }
 
 /// Lists the memories that were cut out, those of one size and module together.

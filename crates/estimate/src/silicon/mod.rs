@@ -7,6 +7,7 @@
 mod cell_totals;
 mod error;
 mod job;
+mod leaves;
 mod liberty_text;
 mod library;
 mod logic_function;
@@ -20,6 +21,7 @@ mod timing;
 pub use cell_totals::CellTotals;
 pub use error::SiliconError;
 pub use job::{SiliconJob, map_to_silicon};
+pub use leaves::SiliconLeaf;
 pub use library::LibertyLibrary;
 pub use memory_plan::{MacroChoice, MemoryFigures};
 pub use render::{render_silicon_markdown, render_silicon_text};

@@ -14,7 +14,8 @@ const MEMORY_COLUMNS: [&str; 5] = ["count", "words", "bits", "macros of one", "u
 /// Returns the report as tables for a terminal of `width` columns; 80 columns are enough.
 #[must_use]
 pub fn render_silicon_text(report: &SiliconReport, width: usize) -> String {
-    let mut text = area_table(report).text(width);
+    let mut text =
+        format!("{}\n{}", leaf_table(report).text(width), area_table(report).text(width));
     if let Some(table) = memory_table(report) {
         text += &format!("\n{}", table.text(width));
     }
@@ -26,13 +27,32 @@ pub fn render_silicon_text(report: &SiliconReport, width: usize) -> String {
 /// Returns the report as Markdown.
 #[must_use]
 pub fn render_silicon_markdown(report: &SiliconReport) -> String {
-    let mut text = area_table(report).markdown();
+    let mut text = format!("{}\n{}", leaf_table(report).markdown(), area_table(report).markdown());
     if let Some(table) = memory_table(report) {
         text += &format!("\n{}", table.markdown());
     }
     text.push('\n');
     text.extend(sentences(report).iter().map(|sentence| format!("* {sentence}\n")));
     text
+}
+
+fn leaf_table(report: &SiliconReport) -> ReportTable {
+    let of = report.leaves.first().map_or("", |leaf| leaf.module.as_str());
+    let rows = report.leaves.iter().map(|leaf| {
+        let name = std::iter::once(leaf.module.as_str());
+        let name: Vec<_> = name.chain(leaf.parameters.iter().map(String::as_str)).collect();
+        area_row(report, &name.join(" "), leaf.instances, leaf.cells)
+    });
+    ReportTable {
+        title: format!("Modules of {of}, each mapped apart"),
+        header: header("module", &COLUMNS),
+        rows: rows.collect(),
+        note: Some(
+            "Figures are for one instance without the modules inside it. They do not add up to those below, where \
+             logic is optimized across modules."
+                .to_owned(),
+        ),
+    }
 }
 
 fn area_table(report: &SiliconReport) -> ReportTable {

@@ -5,6 +5,7 @@ use foveate_toolchain::ToolRecord;
 use serde::{Deserialize, Serialize};
 
 use super::cell_totals::CellTotals;
+use super::leaves::SiliconLeaf;
 use super::memory_plan::MemoryFigures;
 use super::timing::SiliconPath;
 
@@ -39,6 +40,9 @@ pub struct SiliconReport {
     pub shared: CellTotals,
     /// All cells of the array, without memories that are not mapped.
     pub array: CellTotals,
+    /// The modules of the unit, or of the array where that says more, each mapped by itself. Their
+    /// areas do not add up to that of the unit, in which logic is optimized across modules.
+    pub leaves: Vec<SiliconLeaf>,
     /// The largest memory in bits that becomes flip-flops.
     pub memory_limit: u64,
     /// The larger memories.
