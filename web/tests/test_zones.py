@@ -174,7 +174,10 @@ def test_a_wrong_map_in_a_link_is_told(still, value, message):
     step(page, 1)
 
 
-@pytest.mark.parametrize("link", ["zones.__proto__.rgba=1", "zones.keen.constructor.name=1", "zones.keen.spatial.0.__proto__=1", "zones.map=%22a.png%22"])
+@pytest.mark.parametrize(
+    "link",
+    ["zones.__proto__.rgba=1", "zones.keen.constructor.name=1", "zones.keen.spatial.0.__proto__=1", "zones.map=%22a.png%22"],
+)
 def test_a_wrong_key_of_zones_in_a_link_is_told(still, link):
     page = still(f"{START}&{link}")
     until(page, "!document.getElementById('notice').hidden")
