@@ -53,6 +53,7 @@ pub use routing::{
 pub use silicon::{
     CellTotals, LibertyLibrary, LibraryFigures, MacroChoice, MemoryFigures, MemoryTotals,
     ModuleFigures, NOT_INCLUDED, SILICON_FORMAT_VERSION, SiliconError, SiliconJob, SiliconLeaf,
-    SiliconPath, SiliconReport, map_to_silicon, render_silicon_markdown, render_silicon_text,
+    SiliconPath, SiliconReport, gate_netlist, map_to_silicon, render_silicon_markdown,
+    render_silicon_text,
 };
 pub use speed::{FrameRate, most_clocks_per_frame};

@@ -137,6 +137,65 @@ fn a_core_on_axi_is_mapped_with_the_parts_around_its_array() {
     assert!(shared[1] > shared[0] + 500.0, "{shared:?}");
 }
 
+/// The mapped netlist, with models that Yosys makes of the library, computes what the model computes.
+/// Icarus would pass on unknown values from registers before their first use, where the source does not.
+#[test]
+fn the_netlist_agrees_with_the_model() {
+    if !is_ready() || !require_tools(&[Tool::Verilator, Tool::Cxx]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let netlist = dir.path().join("gates/gates.v");
+    fs::create_dir(dir.path().join("gates")).unwrap();
+    let deep = "hardware={organization='serial',fold=2,pipelining='deep'}";
+    let designs: [(&[&str], &[&str]); 3] = [
+        (&["--set", "denoise.filter='median3x3'"], &["--level", "rpu"]),
+        (&["--set", deep], &["--level", "rcm", "--grid", "2x3"]),
+        (
+            &["--set", "frame.width=16", "--set", "hardware={organization='raster'}"],
+            &["--level", "rcm", "--grid", "4x3"],
+        ),
+    ];
+    let cosim = |design: &[&str], part: &[&str]| {
+        let simulate = ["cosim", "--rounds", "1", "--rtl", "gates"];
+        run_in(dir.path(), &[&simulate[..], &SMALL, design, part].concat())
+    };
+    for (design, part) in designs {
+        let estimate = [
+            "estimate",
+            "--quiet",
+            "--liberty",
+            "--memory-limit",
+            "100000",
+            "--netlist",
+            "gates/gates.v",
+        ];
+        run_successfully(dir.path(), &[&estimate[..], &SMALL, design].concat());
+        let outcome = cosim(design, part);
+        assert!(
+            outcome.code == 0 && outcome.stdout.contains("no mismatch"),
+            "{}{}",
+            outcome.stdout,
+            outcome.stderr
+        );
+    }
+    // A wrong cell is found.
+    let (design, part) = designs[0];
+    let estimate = ["estimate", "--quiet", "--liberty", "--netlist", "gates/gates.v"];
+    run_successfully(dir.path(), &[&estimate[..], &SMALL, design].concat());
+    let text = fs::read_to_string(&netlist).unwrap();
+    let wrong = text.replacen("module XOR2X1(", "module XNOR_AS_XOR(", 1);
+    assert_ne!(wrong, text);
+    let wrong =
+        wrong + "\nmodule XOR2X1(input A, input B, output Y); assign Y = ~(A ^ B); endmodule\n";
+    fs::write(&netlist, wrong).unwrap();
+    assert_eq!(cosim(design, part).code, 1);
+    // A netlist without its memories simulates nothing.
+    let raster = ["estimate", "--quiet", "--liberty", "--memory-limit", "63", "--netlist", "n.v"];
+    let args = [&raster[..], &SMALL, designs[2].0].concat();
+    expect_failure(dir.path(), 2, &args, &["is too large for flip-flops", "--memory-limit"]);
+}
+
 #[test]
 fn large_memories_get_macros_that_fit() {
     if !is_ready() {

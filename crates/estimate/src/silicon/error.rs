@@ -90,6 +90,16 @@ pub enum SiliconError {
         /// The name of the library.
         library: String,
     },
+    /// A netlist for a simulator would lack the words of a memory.
+    #[error(
+        "a memory of {bits} bits is too large for flip-flops, of which a memory may have {limit}, so the netlist would lack its words; give --memory-limit {bits}"
+    )]
+    CutMemory {
+        /// The bits of the largest memory.
+        bits: u64,
+        /// The largest memory that becomes flip-flops.
+        limit: u64,
+    },
     /// A module is not in the netlist, or the netlist cannot be read.
     #[error("the netlist of Yosys cannot be used: {reason}; its format may have changed")]
     Netlist {

@@ -16,6 +16,7 @@ const BOX: &str = "memory_box.v";
 const CUT: &str = "memory_cut.v";
 const MEMORIES: &str = "memories.json";
 const NETLIST: &str = "netlist.json";
+const GATES: &str = "gates.v";
 const ONE_UNIT: &str = "one_unit.v";
 const NO_UNIT: &str = "no_unit.v";
 /// The module that stands for a memory that is cut out.
@@ -31,6 +32,8 @@ pub(super) struct MappedArray {
     pub(super) netlist: AreaNetlist,
     /// The netlist as JSON, for the names of nets.
     pub(super) json: Value,
+    /// The netlist as Verilog, with the ports of the source.
+    pub(super) gates: String,
     /// The netlist with one of its units. A whole array may have millions of cells, and the registers
     /// that drive all of its units would have loads that a layout divides by buffers.
     pub(super) one_unit: String,
@@ -84,6 +87,7 @@ pub(super) fn map_array(
         memories: cut_memories(&parsed(&before)?, &json(&before)?, &synthesis.array)?,
         netlist: parsed(&after)?,
         json: json(&after)?,
+        gates: String::from_utf8_lossy(&file(GATES)).into_owned(),
         one_unit: String::from_utf8_lossy(&file(ONE_UNIT)).into_owned(),
         no_unit: String::from_utf8_lossy(&file(NO_UNIT)).into_owned(),
         is_sized: library.smallest_buffer().is_some(),
@@ -120,9 +124,10 @@ fn mapping_job(synthesis: &SynthesisJob, library: &LibertyLibrary, limit: u64) -
     let script = format!(
         "{}synth -top {array} -flatten\n{}\
          rename -enumerate -pattern cell_%\n\
+         delete =A:blackbox\n\
+         write_verilog -noattr {GATES}\n\
          splitnets -ports\n\
          opt_clean -purge\n\
-         delete =A:blackbox\n\
          write_json {NETLIST}\n\
          select -set unit {array}/t:*{unit} %R1\n\
          delete {array}/t:*{unit} @unit %d\n\
@@ -132,7 +137,7 @@ fn mapping_job(synthesis: &SynthesisJob, library: &LibertyLibrary, limit: u64) -
         cut_commands(synthesis, &set, array, &keep, "flatten\n"),
         cell_commands(library.smallest_buffer())
     );
-    let outputs = [MEMORIES, NETLIST, ONE_UNIT, NO_UNIT].map(str::to_owned).to_vec();
+    let outputs = [MEMORIES, NETLIST, GATES, ONE_UNIT, NO_UNIT].map(str::to_owned).to_vec();
     YosysJob { sources: job_sources(synthesis, library, limit), script, outputs }
 }
 

@@ -6,6 +6,7 @@
 
 mod cell_totals;
 mod error;
+mod gate_netlist;
 mod job;
 mod leaves;
 mod liberty_text;
@@ -20,6 +21,7 @@ mod timing;
 
 pub use cell_totals::CellTotals;
 pub use error::SiliconError;
+pub use gate_netlist::gate_netlist;
 pub use job::{SiliconJob, map_to_silicon};
 pub use leaves::SiliconLeaf;
 pub use library::LibertyLibrary;

@@ -4,9 +4,10 @@
 use std::path::Path;
 
 use foveate_estimate::{
-    LibertyLibrary, SiliconJob, SiliconReport, map_to_silicon, render_silicon_markdown,
-    render_silicon_text,
+    LibertyLibrary, SiliconJob, SiliconReport, gate_netlist, map_to_silicon,
+    render_silicon_markdown, render_silicon_text,
 };
+use foveate_staging::{check_file, write_file};
 
 use super::synthesis::SynthesisTools;
 use crate::args::{DEFAULT_LIBERTY, EstimateArgs};
@@ -19,8 +20,15 @@ pub(super) fn run(args: &EstimateArgs, flow: &SynthesisTools) -> Result<(), CliE
     let job = SiliconJob::for_design(&design, args.memory_limit);
     let libraries = args.liberty.iter().map(|path| read_library(path));
     let libraries: Vec<_> = libraries.collect::<Result<_, _>>()?;
+    if args.netlist.is_some() && libraries.len() > 1 {
+        let message = "--netlist is for one library; give --liberty once";
+        return Err(CliError::Usage(message.to_owned()));
+    }
     let macros = args.macros.iter().map(|path| LibertyLibrary::read(path));
     let macros: Vec<_> = macros.collect::<Result<_, _>>()?;
+    if let Some(path) = &args.netlist {
+        check_file(path)?;
+    }
     let progress = Progress::new(args.quiet);
     let mut reports = Vec::new();
     for library in &libraries {
@@ -29,6 +37,10 @@ pub(super) fn run(args: &EstimateArgs, flow: &SynthesisTools) -> Result<(), CliE
         let report = map_to_silicon(&flow.toolchain, &flow.cache, &job, inputs);
         progress.finish();
         reports.push(report?);
+        if let Some(path) = &args.netlist {
+            let netlist = gate_netlist(&flow.toolchain, &flow.cache, &job, library)?;
+            write_file(path, netlist.as_bytes())?;
+        }
     }
     print_reports(args, &reports)
 }

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The netlist of a design in the cells of a library, with models of the cells, for a simulator.
+
+use foveate_toolchain::yosys::{self, YosysJob};
+use foveate_toolchain::{Cache, SynthesisJob, Toolchain};
+
+use super::error::SiliconError;
+use super::job::SiliconJob;
+use super::library::LibertyLibrary;
+use super::mapping::map_array;
+
+const CELLS: &str = "cells.lib";
+const MODELS: &str = "models.v";
+
+/// Maps a design as [`map_to_silicon`](super::map_to_silicon) does, and returns the netlist as Verilog: the
+/// modules of the array and of its units, and a model of each cell that they use, by its function in the
+/// library.
+///
+/// # Errors
+/// Fails like [`map_to_silicon`](super::map_to_silicon), and if a memory of the design is too large for
+/// flip-flops, because the netlist would not have its words.
+pub fn gate_netlist(
+    toolchain: &Toolchain,
+    cache: &Cache,
+    job: &SiliconJob,
+    library: &LibertyLibrary,
+) -> Result<String, SiliconError> {
+    let synthesis = job.design.top_synthesis();
+    let mapped = map_array(toolchain, cache, synthesis, library, job.memory_limit)?;
+    if let Some(bits) = mapped.memories.iter().map(|memory| memory.words * memory.width).max() {
+        return Err(SiliconError::CutMemory { bits, limit: job.memory_limit });
+    }
+    let script = format!("read_liberty {CELLS}\nwrite_verilog -noattr {MODELS}\n");
+    let sources = vec![(CELLS.to_owned(), library.text.clone())];
+    let job = YosysJob { sources, script, outputs: vec![MODELS.to_owned()] };
+    let mut run = yosys::run(toolchain, cache, &job)?;
+    let models = run.files.remove(MODELS).expect("it is the wanted file");
+    let models = String::from_utf8_lossy(&models).into_owned();
+    let used = library.cells.keys().filter(|cell| uses(&mapped.gates, cell));
+    let texts: String = used.filter_map(|cell| yosys::module_text(&models, cell)).collect();
+    Ok(with_parameters(mapped.gates, synthesis) + &texts)
+}
+
+/// Gives the array the parameters that its source has. They have one value, for which the netlist was
+/// made.
+fn with_parameters(gates: String, synthesis: &SynthesisJob) -> String {
+    let parameters = synthesis.parameters.iter();
+    let parameters = parameters.map(|(name, value)| format!("parameter {name} = {value}"));
+    let parameters = parameters.collect::<Vec<_>>().join(", ");
+    if parameters.is_empty() {
+        return gates;
+    }
+    let head = format!("module {}(", synthesis.array);
+    gates.replacen(&head, &format!("module {} #({parameters}) (", synthesis.array), 1)
+}
+
+/// Returns true if a netlist has an instance of a cell, which stands in a line with its name.
+fn uses(netlist: &str, cell: &str) -> bool {
+    netlist.lines().any(|line| {
+        let rest = line.trim_start().strip_prefix(cell);
+        rest.is_some_and(|rest| rest.starts_with(' ') && rest.ends_with('('))
+    })
+}
