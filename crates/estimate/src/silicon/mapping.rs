@@ -208,7 +208,7 @@ fn cut_memories(
                 })
             };
             found.push(CutMemory {
-                name: name.trim_end_matches(".u_memory").to_owned(),
+                name: instance_path(name),
                 width: number("WIDTH")?,
                 words: number("WORDS")?,
                 reads: number("READS")?,
@@ -220,4 +220,23 @@ fn cut_memories(
     }
     found.retain(|memory| memory.count > 0);
     Ok(found)
+}
+
+/// Returns the instances on the path to a memory, without the generate blocks around them: `u_forward.u_buffer`.
+fn instance_path(name: &str) -> String {
+    let path = name.trim_end_matches(".u_memory");
+    let instances: Vec<&str> = path.split('.').filter(|part| part.starts_with("u_")).collect();
+    if instances.is_empty() { path.to_owned() } else { instances.join(".") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_memory_is_named_by_its_instances() {
+        let name = "g_forward.u_forward.u_buffer.g_inferred.words_q.u_memory";
+        assert_eq!(instance_path(name), "u_forward.u_buffer");
+        assert_eq!(instance_path("words_q.u_memory"), "words_q");
+    }
 }
