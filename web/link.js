@@ -18,8 +18,17 @@ const ORGANIZATION_KEY = "hardware.organization";
 /** The map of zones, which is one text in place of a key for each row. */
 const MAP_KEY = "zones.classes";
 
-/** Returns a configuration with the map of its zones as a text. */
-const withMapText = config => config.zones ? { ...config, zones: { ...config.zones, classes: textOfMap(config.zones.classes ?? []) } } : config;
+/** The largest number of characters of a map in a link, which leaves room for the other settings. */
+const MAX_MAP = 6000;
+
+/** Returns whether the map of a configuration is too long for a link, because neighboring regions have different classes. */
+export const isMapTooFine = config => textOfMap(config.zones?.classes ?? []).length > MAX_MAP;
+
+/** Returns a configuration with the map of its zones as a text, which is empty if it is too long for a link. */
+function withMapText(config) {
+  if (!config.zones) return config;
+  return { ...config, zones: { ...config.zones, classes: isMapTooFine(config) ? "" : textOfMap(config.zones.classes ?? []) } };
+}
 
 /** Returns the fragment without `#`. `preset` is the configuration of that preset. */
 export function writeLink(pageSettings, preset, config, network) {

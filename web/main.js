@@ -8,7 +8,7 @@ import { withDepth } from "./depth.js";
 import { asPath, byId, copy, make, setText, withoutBackticks } from "./elements.js";
 import { Figures } from "./figures.js";
 import { showHardware } from "./hardware.js";
-import { linkToShare, readLink, writeLink } from "./link.js";
+import { isMapTooFine, linkToShare, readLink, writeLink } from "./link.js";
 import { withFittingMeans } from "./means.js";
 import { NetworkView } from "./network.js";
 import { withOrganization } from "./organization.js";
@@ -435,6 +435,7 @@ function addListeners() {
   byId("speed").onchange = event => { speed = Number(event.target.value); source?.speed(speed); };
   byId("copy-toml").onclick = () => copy(camera.facts.toml, "the TOML");
   byId("copy-link").onclick = () => {
+    if (isMapTooFine(config)) notice("the map of zones is too fine for a link, and is left out; the TOML has it");
     const text = linkToShare(location, link());
     copy(text, text.startsWith("#") ? "the part of the link behind its secret address" : "the link");
   };

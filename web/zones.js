@@ -45,7 +45,7 @@ export function mapOfText(text) {
   const [, width, height, runs] = /^(\d{1,5})x(\d{1,5}):((?:[noka]\d{1,7})+)$/.exec(text) ?? [];
   const parts = [...(runs ?? "").matchAll(/([noka])(\d+)/g)].map(([, letter, count]) => [letter, Number(count)]);
   const total = parts.reduce((sum, [, count]) => sum + count, 0), columns = Number(width);
-  if (!runs || total > MAX_REGIONS || columns < 1 || total !== columns * Number(height))
+  if (!runs || total > MAX_REGIONS || columns < 1 || Number(height) < 1 || total !== columns * Number(height))
     throw new Error(`\`${text.slice(0, 40)}\` is not a map; write runs of n (normal), o (off), k (keen) and a (always), as in 4x2:n5o3`);
   const digits = parts.map(([letter, count]) => String(CLASSES.findIndex(own => own.letter === letter)).repeat(count)).join("");
   return digits.match(new RegExp(`.{${columns}}`, "g"));
@@ -87,7 +87,7 @@ export function withHeldValue(config, key, value) {
 
 /** The buttons that choose a class to paint, and the strokes on the pictures. */
 export class ZonePainter {
-  #buttons; #size; #clear; #hint; #actions; #code = null; #codes = null; #facts = null;
+  #buttons; #size; #clear; #hint; #actions; #code = null; #codes = null; #paintedColumns = 0; #facts = null;
 
   /** `apply(codes)` gives the camera a class per region; `end()` follows a stroke; `clear()` takes all zones away. */
   constructor(place, { apply, end, clear }) {
@@ -128,6 +128,7 @@ export class ZonePainter {
     const { columns, rows } = this.#facts, reach = Number(this.#size.value) >> 1;
     const isScheduled = this.#codes !== null;
     this.#codes ??= classesOf(this.#facts);
+    this.#paintedColumns = columns;
     const steps = Math.max(Math.abs(to.x - from.x), Math.abs(to.y - from.y), 1);
     for (let step = 0; step <= steps; step++) {
       const at = (start, end) => Math.round(start + (end - start) * step / steps);
@@ -142,7 +143,8 @@ export class ZonePainter {
     const codes = this.#codes;
     this.#codes = null;
     // Another camera has replaced the painted one meanwhile.
-    if (codes?.length === this.#facts.columns * this.#facts.rows) this.#actions.apply(codes);
+    const { columns, rows } = this.#facts;
+    if (codes?.length === columns * rows && this.#paintedColumns === columns) this.#actions.apply(codes);
   }
 
   /** Ends a stroke. */

@@ -307,8 +307,8 @@ pub(crate) struct EstimateArgs {
     /// (`FOVEATE_ECP5`)
     #[arg(long, requires = "place_and_route")]
     pub(crate) portable: bool,
-    /// Map the design to the cells of this liberty file instead, which may be gzipped, and print its
-    /// area on silicon, its longest path and its leakage. Without a file, the cells are those of
+    /// Map the design to the cells of a liberty file, plain or gzipped, and print its area on
+    /// silicon, its longest path and its leakage. Without a file, the cells are those of
     /// Debian's package `qflow-tech-osu018`, of 0.18 um. Each further --liberty makes a further report
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = DEFAULT_LIBERTY, conflicts_with_all = ["compare", "place_and_route", "clock"])]
     pub(crate) liberty: Vec<PathBuf>,

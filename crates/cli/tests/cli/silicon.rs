@@ -193,7 +193,7 @@ fn the_netlist_agrees_with_the_model() {
     // A netlist without its memories simulates nothing.
     let raster = ["estimate", "--quiet", "--liberty", "--memory-limit", "63", "--netlist", "n.v"];
     let args = [&raster[..], &SMALL, designs[2].0].concat();
-    expect_failure(dir.path(), 2, &args, &["is too large for flip-flops", "--memory-limit"]);
+    expect_failure(dir.path(), 2, &args, &["is above the limit of 63", "--memory-limit"]);
 }
 
 #[test]

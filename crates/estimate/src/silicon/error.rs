@@ -49,7 +49,7 @@ pub enum SiliconError {
         missing: &'static str,
     },
     /// A file of macros has no memory.
-    #[error("`{}` has no memory with `address_width` and `word_width`; give liberty files of memories to --macros", path.display())]
+    #[error("`{}` has no memory with an area, `address_width` and `word_width`; give liberty files of memories to --macros", path.display())]
     NoMemory {
         /// The file.
         path: PathBuf,
@@ -92,9 +92,9 @@ pub enum SiliconError {
     },
     /// A netlist for a simulator would lack the words of a memory.
     #[error(
-        "a memory of {bits} bits is too large for flip-flops, of which a memory may have {limit}, so the netlist would lack its words; give --memory-limit {bits}"
+        "a memory of {bits} bits is above the limit of {limit}, so the netlist would lack it; give --memory-limit {bits}"
     )]
-    CutMemory {
+    MemoryTooLarge {
         /// The bits of the largest memory.
         bits: u64,
         /// The largest memory that becomes flip-flops.

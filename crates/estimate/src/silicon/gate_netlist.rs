@@ -17,7 +17,7 @@ const MODELS: &str = "models.v";
 /// library.
 ///
 /// # Errors
-/// Fails like [`map_to_silicon`](super::map_to_silicon), and if a memory of the design is too large for
+/// Fails if Yosys is missing or fails, if a cell has no model, and if a memory is too large for
 /// flip-flops, because the netlist would not have its words.
 pub fn gate_netlist(
     toolchain: &Toolchain,
@@ -28,16 +28,22 @@ pub fn gate_netlist(
     let synthesis = job.design.top_synthesis();
     let mapped = map_array(toolchain, cache, synthesis, library, job.memory_limit)?;
     if let Some(bits) = mapped.memories.iter().map(|memory| memory.words * memory.width).max() {
-        return Err(SiliconError::CutMemory { bits, limit: job.memory_limit });
+        return Err(SiliconError::MemoryTooLarge { bits, limit: job.memory_limit });
     }
-    let script = format!("read_liberty {CELLS}\nwrite_verilog -noattr {MODELS}\n");
+    let script =
+        format!("read_liberty -ignore_miss_func {CELLS}\nwrite_verilog -noattr {MODELS}\n");
     let sources = vec![(CELLS.to_owned(), library.text.clone())];
     let job = YosysJob { sources, script, outputs: vec![MODELS.to_owned()] };
     let mut run = yosys::run(toolchain, cache, &job)?;
     let models = run.files.remove(MODELS).expect("it is the wanted file");
     let models = String::from_utf8_lossy(&models).into_owned();
     let used = library.cells.keys().filter(|cell| uses(&mapped.gates, cell));
-    let texts: String = used.filter_map(|cell| yosys::module_text(&models, cell)).collect();
+    let texts = used.map(|cell| {
+        yosys::module_text(&models, cell).ok_or_else(|| SiliconError::Netlist {
+            reason: format!("there is no model of the cell `{cell}`"),
+        })
+    });
+    let texts: String = texts.collect::<Result<_, _>>()?;
     Ok(with_parameters(mapped.gates, synthesis) + &texts)
 }
 

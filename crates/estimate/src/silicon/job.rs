@@ -15,7 +15,8 @@ use super::net_names::source_name;
 use super::report::{
     LibraryFigures, MemoryTotals, ModuleFigures, SILICON_FORMAT_VERSION, SiliconReport,
 };
-use super::timing::{ModuleTiming, time_module};
+use super::timing::{ModuleTiming, SiliconPath, time_module};
+use super::unit_instances::{LONE_UNIT, with_lone_unit, with_units};
 use crate::EstimateJob;
 use crate::speed::clocks_as_float;
 
@@ -73,22 +74,33 @@ pub fn map_to_silicon(
         return Err(SiliconError::MissingCell { library, missing });
     }
     let mapped = map_array(toolchain, cache, synthesis, library, job.memory_limit)?;
-    let (unit, shared) = areas(&mapped, (job, synthesis), library)?;
+    let kinds = unit_kinds(&mapped, (job, synthesis))?;
+    let (unit, shared) = unit_and_shared_cells(&mapped, &kinds, &synthesis.array, library)?;
     let within = (job.leaves_of.as_str(), job.memory_limit);
     let leaves = map_leaves(toolchain, cache, &job.design.synthesis, library, within)?;
-    let time =
-        |verilog: &str| time_module(toolchain, cache, (verilog, &synthesis.array, clock), library);
-    let ModuleTiming { tool: timer, path, leakage_nw } = time(&mapped.one_unit)?;
-    let mut path = path.ok_or_else(|| SiliconError::Timing {
+    let time = |verilog: &str, top: &str, clock: &str| {
+        time_module(toolchain, cache, (verilog, top, clock), library)
+    };
+    let one_unit = with_units(&mapped.verilog, &kinds, Some(&kinds[0]));
+    let ModuleTiming { tool: timer, path, leakage_nw } = time(&one_unit, &synthesis.array, clock)?;
+    let mut paths = vec![(path, synthesis.array.as_str())];
+    if !mapped.memories.is_empty() {
+        // The ports of memories inside a unit are not connected in the array.
+        let alone = with_lone_unit(&mapped.verilog, &kinds[0]);
+        paths.push((time(&alone, LONE_UNIT, ARRAY_CLOCK)?.path, kinds[0].as_str()));
+    }
+    let named = paths.into_iter().filter_map(|(path, top)| {
+        let path = path?;
+        let [from, to] = [&path.from, &path.to].map(|end| source_name(&mapped.json, top, end));
+        Some(SiliconPath { from, to, ..path })
+    });
+    let path = named.max_by(|a, b| a.ns.total_cmp(&b.ns)).ok_or_else(|| SiliconError::Timing {
         reason: "there is no path between registers or ports".to_owned(),
     })?;
-    for end in [&mut path.from, &mut path.to] {
-        *end = source_name(&mapped.json, &synthesis.array, end);
-    }
     let units = job.design.units;
     let shared_leakage_nw = match shared.cells {
         0 => 0.0,
-        _ => time(&mapped.no_unit)?.leakage_nw,
+        _ => time(&with_units(&mapped.verilog, &kinds, None), &synthesis.array, clock)?.leakage_nw,
     };
     #[allow(clippy::cast_precision_loss, reason = "there are fewer than 2^53 units")]
     let leakage_nw = shared_leakage_nw + (leakage_nw - shared_leakage_nw) * units as f64;
@@ -121,18 +133,23 @@ pub fn map_to_silicon(
     })
 }
 
-/// Returns the cells of one unit, the most frequent one if there are several kinds, and those that the
-/// units share.
-fn areas(
+/// Returns the modules of the netlist that are units, the most frequent first.
+fn unit_kinds(
     mapped: &MappedArray,
     (job, synthesis): (&SiliconJob, &SynthesisJob),
+) -> Result<Vec<String>, SiliconError> {
+    let kinds = job.design.units(&mapped.netlist, synthesis);
+    kinds.map_err(|error| SiliconError::Netlist { reason: error.to_string() })
+}
+
+/// Returns the cells of one unit, of the most frequent kind, and those that the units share.
+fn unit_and_shared_cells(
+    mapped: &MappedArray,
+    kinds: &[String],
+    array: &str,
     library: &LibertyLibrary,
 ) -> Result<(CellTotals, CellTotals), SiliconError> {
-    let unusable =
-        |error: crate::EstimateError| SiliconError::Netlist { reason: error.to_string() };
-    let units = job.design.units(&mapped.netlist, synthesis).map_err(unusable)?;
-    let array = &synthesis.array;
-    let names: Vec<&str> = units.iter().map(String::as_str).collect();
+    let names: Vec<&str> = kinds.iter().map(String::as_str).collect();
     let unit = CellTotals::of_module(&mapped.netlist, library, names[0], &[])?;
     if names[0] == array {
         return Ok((unit, CellTotals::default()));

@@ -254,7 +254,8 @@ impl<'a> Tokens<'a> {
     fn read_word(&mut self, start: usize) -> &'a str {
         let ends = |letter: char| letter.is_whitespace() || "(){};:,\"\\".contains(letter);
         while let Some(&(at, letter)) = self.letters.peek() {
-            if ends(letter) {
+            let is_comment = ["/*", "//"].iter().any(|mark| self.text[at..].starts_with(mark));
+            if ends(letter) || is_comment {
                 return &self.text[start..at];
             }
             self.step();
@@ -274,7 +275,7 @@ mod tests {
             time_unit : "1ns"
             capacitive_load_unit (1, pf);
             lu_table_template (a) { index_1 ("0.1, 0.2"); }
-            cell (NAND2) { area : 4 ;
+            cell (NAND2) { area : 4/* um2 */ ;
                 pin (A) { direction : input; }
                 pin ("Y") { direction : "output"; function : "!(A B)";
                     timing () { cell_rise (a) { values ("1, 2", \

@@ -112,7 +112,9 @@ impl LibertyLibrary {
     /// Returns the memories with their areas.
     pub(super) fn memories(&self) -> impl Iterator<Item = (&str, MemoryShape, f64)> {
         self.cells.iter().filter_map(|(name, cell)| match cell.role {
-            CellRole::Memory(shape) => Some((name.as_str(), shape, cell.area?)),
+            CellRole::Memory(shape) => {
+                Some((name.as_str(), shape, cell.area.filter(|&area| area > 0.0)?))
+            }
             _ => None,
         })
     }
@@ -126,7 +128,8 @@ impl LibertyLibrary {
 
 impl LibraryCell {
     fn from_group(cell: &LibertyGroup) -> Self {
-        let area = cell.attribute("area").and_then(|area| area.trim().parse().ok());
+        let area = cell.attribute("area").and_then(|area| area.trim().parse::<f64>().ok());
+        let area = area.filter(|area| area.is_finite() && *area >= 0.0);
         Self { area, role: CellRole::from_group(cell) }
     }
 }
@@ -204,10 +207,9 @@ fn read_text(path: &Path) -> io::Result<String> {
     } else {
         LimitedReader::new(file, FILE_LIMIT).read_to_end(&mut bytes)?;
     }
-    String::from_utf8(bytes).map_err(|error| {
-        let at = error.utf8_error().valid_up_to();
-        io::Error::new(io::ErrorKind::InvalidData, format!("it is not text, from byte {at} on"))
-    })
+    // Comments may have letters in other encodings.
+    let text = String::from_utf8_lossy(&bytes);
+    Ok(text.trim_start_matches('\u{feff}').to_owned())
 }
 
 #[cfg(test)]
@@ -277,7 +279,7 @@ mod tests {
         for (name, content, words) in [
             ("a.lib", &b"library (a) {"[..], "line 1: the file ends within a group"),
             ("b.lib", b"library (b) { }", "has no cell"),
-            ("c.lib", &[0xFF, 0xFE], "not text, from byte 0 on"),
+            ("c.lib", &[0xFF, 0xFE], "line 1"),
             ("d.lib", &[0x1F, 0x8B, 1, 2], "d.lib"),
             ("e.lib", b"module rpu (); endmodule", "e.lib"),
         ] {

@@ -32,26 +32,26 @@ struct Evaluation<'a> {
 
 impl Evaluation<'_> {
     fn or(&mut self) -> Option<bool> {
-        let mut value = self.exclusive_or()?;
-        while self.takes(&['|', '+']) {
-            value |= self.exclusive_or()?;
-        }
-        Some(value)
-    }
-
-    fn exclusive_or(&mut self) -> Option<bool> {
         let mut value = self.and()?;
-        while self.takes(&['^']) {
-            value ^= self.and()?;
+        while self.takes(&['|', '+']) {
+            value |= self.and()?;
         }
         Some(value)
     }
 
     fn and(&mut self) -> Option<bool> {
-        let mut value = self.operand()?;
+        let mut value = self.exclusive_or()?;
         // An operand behind an operand is the and of both.
         while self.takes(&['&', '*']) || self.text.starts_with(is_start) {
-            value &= self.operand()?;
+            value &= self.exclusive_or()?;
+        }
+        Some(value)
+    }
+
+    fn exclusive_or(&mut self) -> Option<bool> {
+        let mut value = self.operand()?;
+        while self.takes(&['^']) {
+            value ^= self.operand()?;
         }
         Some(value)
     }
@@ -59,9 +59,9 @@ impl Evaluation<'_> {
     fn operand(&mut self) -> Option<bool> {
         let mut value = if self.takes(&['!']) {
             self.depth += 1;
-            !self.bounded(Self::negated)?
+            !self.bounded(Self::primary)?
         } else {
-            self.negated()?
+            self.primary()?
         };
         while self.takes(&['\'']) {
             value = !value;
@@ -69,7 +69,7 @@ impl Evaluation<'_> {
         Some(value)
     }
 
-    fn negated(&mut self) -> Option<bool> {
+    fn primary(&mut self) -> Option<bool> {
         if self.text.starts_with('!') {
             return self.operand();
         }
@@ -131,10 +131,10 @@ mod tests {
         assert_eq!(truth_table("A", &["A"]), Some(vec![false, true]));
         assert_eq!(truth_table("((A))", &["A"]), Some(vec![false, true]));
         assert_eq!(truth_table("A^B", &["A", "B"]), Some(vec![false, true, true, false]));
-        let mixed = truth_table("A B + C ^ A", &["A", "B", "C"]).unwrap();
+        let mixed = truth_table("A B ^ C + !C", &["A", "B", "C"]).unwrap();
         let expected = (0..8).map(|n| {
             let [a, b, c] = [0, 1, 2].map(|bit| n >> bit & 1 == 1);
-            a && b || (c ^ a)
+            a && (b ^ c) || !c
         });
         assert_eq!(mixed, expected.collect::<Vec<_>>());
         assert_eq!(truth_table("1", &[]), Some(vec![true]));

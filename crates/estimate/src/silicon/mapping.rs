@@ -14,11 +14,12 @@ const CELLS: &str = "cells.lib";
 const CONSTRAINTS: &str = "abc.constr";
 const BOX: &str = "memory_box.v";
 const CUT: &str = "memory_cut.v";
+/// The load of a port or register in femtofarads, for the sizing of gates.
+const LOAD_FF: u32 = 10;
 const MEMORIES: &str = "memories.json";
 const NETLIST: &str = "netlist.json";
 const GATES: &str = "gates.v";
-const ONE_UNIT: &str = "one_unit.v";
-const NO_UNIT: &str = "no_unit.v";
+const VERILOG: &str = "netlist.v";
 /// The module that stands for a memory that is cut out.
 const MEMORY_MODULE: &str = "foveate_memory";
 /// The module with the ports of a memory that is cut out.
@@ -34,17 +35,14 @@ pub(super) struct MappedArray {
     pub(super) json: Value,
     /// The netlist as Verilog, with the ports of the source.
     pub(super) gates: String,
-    /// The netlist with one of its units. A whole array may have millions of cells, and the registers
-    /// that drive all of its units would have loads that a layout divides by buffers.
-    pub(super) one_unit: String,
-    /// The netlist without its units.
-    pub(super) no_unit: String,
+    /// The netlist as Verilog for OpenSTA.
+    pub(super) verilog: String,
     pub(super) memories: Vec<CutMemory>,
     /// True if gates were sized and buffers were added for their loads.
     pub(super) is_sized: bool,
 }
 
-/// The memories of one size that are not in the netlist.
+/// A memory of a module that is not in the netlist.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct CutMemory {
     pub(super) name: String,
@@ -88,8 +86,7 @@ pub(super) fn map_array(
         netlist: parsed(&after)?,
         json: json(&after)?,
         gates: String::from_utf8_lossy(&file(GATES)).into_owned(),
-        one_unit: String::from_utf8_lossy(&file(ONE_UNIT)).into_owned(),
-        no_unit: String::from_utf8_lossy(&file(NO_UNIT)).into_owned(),
+        verilog: String::from_utf8_lossy(&file(VERILOG)).into_owned(),
         is_sized: library.smallest_buffer().is_some(),
     })
 }
@@ -129,15 +126,11 @@ fn mapping_job(synthesis: &SynthesisJob, library: &LibertyLibrary, limit: u64) -
          splitnets -ports\n\
          opt_clean -purge\n\
          write_json {NETLIST}\n\
-         select -set unit {array}/t:*{unit} %R1\n\
-         delete {array}/t:*{unit} @unit %d\n\
-         write_verilog -noattr -noexpr -nohex -nodec {ONE_UNIT}\n\
-         delete {array}/t:*{unit}\n\
-         write_verilog -noattr -noexpr -nohex -nodec {NO_UNIT}\n",
+         write_verilog -noattr -noexpr -nohex -nodec {VERILOG}\n",
         cut_commands(synthesis, &set, array, &keep, "flatten\n"),
         cell_commands(library.smallest_buffer())
     );
-    let outputs = [MEMORIES, NETLIST, GATES, ONE_UNIT, NO_UNIT].map(str::to_owned).to_vec();
+    let outputs = [MEMORIES, NETLIST, GATES, VERILOG].map(str::to_owned).to_vec();
     YosysJob { sources: job_sources(synthesis, library, limit), script, outputs }
 }
 
@@ -181,13 +174,13 @@ fn job_sources(synthesis: &SynthesisJob, library: &LibertyLibrary, limit: u64) -
     sources.push((BOX.to_owned(), BOX_TEXT.to_owned()));
     sources.push((CUT.to_owned(), CUT_TEXT.replace("LIMIT", &limit.to_string())));
     if let Some(buffer) = library.smallest_buffer() {
-        let text = format!("set_driving_cell {buffer}\nset_load 0.02\n");
+        let text = format!("set_driving_cell {buffer}\nset_load {LOAD_FF}\n");
         sources.push((CONSTRAINTS.to_owned(), text));
     }
     sources
 }
 
-/// Lists the memories that were cut out, those of one size and module together.
+/// Lists the memories that were cut out; those of all instances of a module are one entry.
 fn cut_memories(
     netlist: &AreaNetlist,
     json: &Value,

@@ -34,7 +34,7 @@ module foveate_memory_cut (RD_CLK, RD_EN, RD_ARST, RD_SRST, RD_ADDR, RD_DATA, WR
 
     wire _TECHMAP_FAIL_ = WIDTH * SIZE <= LIMIT;
 
-    foveate_memory #(.WIDTH(WIDTH), .WORDS(SIZE), .READS(RD_PORTS), .WRITES(WR_PORTS), .CLOCKED(RD_CLK_ENABLE)) u_memory (
+    foveate_memory #(.WIDTH(WIDTH), .WORDS(SIZE), .READS(RD_PORTS), .WRITES(WR_PORTS), .CLOCKED(RD_CLK_ENABLE == {RD_PORTS{1'b1}})) u_memory (
         .read_enable(RD_EN), .read_address(RD_ADDR), .read_data(RD_DATA),
         .write_enable(WR_EN), .write_address(WR_ADDR), .write_data(WR_DATA)
     );

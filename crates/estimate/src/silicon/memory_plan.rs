@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::library::{LibertyLibrary, MemoryShape};
 use super::mapping::CutMemory;
 
-/// The memories of one size that are not mapped to cells.
+/// A memory of a module that is not mapped to cells.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct MemoryFigures {
     /// The place of the memory in the design.

@@ -18,6 +18,7 @@ mod net_names;
 mod render;
 mod report;
 mod timing;
+mod unit_instances;
 
 pub use cell_totals::CellTotals;
 pub use error::SiliconError;

@@ -121,7 +121,7 @@ fn sentences(report: &SiliconReport) -> Vec<String> {
     let memory = &report.memory;
     let mut all = vec![
         format!(
-            "The array takes {} mm2{}; {} regions of {}x{} pixels fit under pixels of {} um.",
+            "The array takes {} mm2{}. The circuit of each of its {} regions of {}x{} pixels fits under pixels of {} um.",
             real_number(report.area_mm2(), 3),
             if memory.macros > 0 {
                 format!(

@@ -70,7 +70,7 @@ pub struct LibraryFigures {
     pub gate_area_um2: f64,
 }
 
-/// The figures of a module of which the array has several.
+/// The figures of the unit of an array.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ModuleFigures {
     /// The name of the module for people.

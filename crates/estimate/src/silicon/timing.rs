@@ -25,7 +25,7 @@ pub struct SiliconPath {
     pub ns: f64,
     /// The highest clock in MHz.
     pub mhz: f64,
-    /// The number of cells on the path.
+    /// The number of cells on the path, with the register at its start and without that at its end.
     pub cells: u64,
     /// The register or port at which the path begins.
     pub from: String,
@@ -33,7 +33,7 @@ pub struct SiliconPath {
     pub to: String,
 }
 
-/// What OpenSTA says of a module.
+/// The longest path and the leakage of a module, from OpenSTA.
 pub(super) struct ModuleTiming {
     pub(super) tool: ToolRecord,
     /// `None` if no path leads from a register or port to another.
@@ -104,18 +104,22 @@ fn path_of_report(report: &str, unit: f64) -> Result<Option<SiliconPath>, &'stat
     let slack = slack.and_then(|line| line.split_whitespace().next()?.parse::<f64>().ok());
     let slack = slack.ok_or("its report has no slack")?;
     let ns = PERIOD_NS - slack * unit;
-    // A line of the path has an edge and a pin.
-    let is_output = |line: &&str| {
-        let mut words = line.split_whitespace().skip(2);
-        matches!(words.next(), Some("^" | "v")) && words.next().is_some_and(|pin| pin.contains('/'))
-    };
+    // A line of the path has an edge and a pin, and each cell has two lines.
     let arrival = report.split("data arrival time").next().unwrap_or_default();
-    let pins = arrival.lines().filter(is_output).count() as u64;
+    let pins = arrival.lines().filter_map(|line| {
+        let mut words = line.split_whitespace().skip(2);
+        let is_edge = matches!(words.next(), Some("^" | "v"));
+        let (cell, _) = words.next().filter(|_| is_edge)?.rsplit_once('/')?;
+        Some(cell)
+    });
+    let mut cells: Vec<&str> = pins.collect();
+    cells.dedup();
+    let last = cells.last().map(|cell| (*cell).to_owned());
+    let ends_in_register = last.is_some() && last == end("Endpoint:");
     Ok(Some(SiliconPath {
         ns,
         mhz: 1000.0 / ns,
-        // The first pin is the clock of the register, and the last one its input.
-        cells: pins.saturating_sub(2),
+        cells: cells.len() as u64 - u64::from(ends_in_register),
         from: end("Startpoint:").ok_or("the path has no start")?,
         to: end("Endpoint:").ok_or("the path has no end")?,
     }))

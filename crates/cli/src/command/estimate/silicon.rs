@@ -30,6 +30,12 @@ pub(super) fn run(args: &EstimateArgs, flow: &SynthesisTools) -> Result<(), CliE
         check_file(path)?;
     }
     let progress = Progress::new(args.quiet);
+    if let (Some(path), [library]) = (&args.netlist, libraries.as_slice()) {
+        progress.report_work("mapping with Yosys");
+        let netlist = gate_netlist(&flow.toolchain, &flow.cache, &job, library);
+        progress.finish();
+        write_file(path, netlist?.as_bytes())?;
+    }
     let mut reports = Vec::new();
     for library in &libraries {
         progress.report_work("mapping with Yosys, timing with OpenSTA");
@@ -37,10 +43,6 @@ pub(super) fn run(args: &EstimateArgs, flow: &SynthesisTools) -> Result<(), CliE
         let report = map_to_silicon(&flow.toolchain, &flow.cache, &job, inputs);
         progress.finish();
         reports.push(report?);
-        if let Some(path) = &args.netlist {
-            let netlist = gate_netlist(&flow.toolchain, &flow.cache, &job, library)?;
-            write_file(path, netlist.as_bytes())?;
-        }
     }
     print_reports(args, &reports)
 }
