@@ -43,7 +43,8 @@ mod tests {
         assert_eq!(encode(&[]), "");
         assert_eq!(encode(&[0, 0, 0, 0]), "00000");
         assert_eq!(encode(&[255; 4]), "|NsC0");
-        let bytes: Vec<u8> = (0..2000_u32).map(|n| (n * n % 251 + n / 7 % 6) as u8).collect();
+        let byte = |n: u32| (n * n % 251 + n / 7 % 6).to_le_bytes()[0];
+        let bytes: Vec<u8> = (0..2000).map(byte).collect();
         for length in (0..40).chain([1999, 2000]) {
             assert_eq!(decode(&encode(&bytes[..length])), bytes[..length], "{length}");
         }
