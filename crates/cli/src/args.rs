@@ -316,7 +316,7 @@ pub(crate) struct EstimateArgs {
     /// flip-flops
     #[arg(long, value_name = "FILE", num_args = 1.., requires = "liberty")]
     pub(crate) macros: Vec<PathBuf>,
-    /// Also write the netlist as Verilog, with models of its cells. In a folder of its own,
+    /// Write the netlist, too, as Verilog with models of its cells. In a folder of its own,
     /// `foveate cosim --rtl` simulates it
     #[arg(long, value_name = "FILE", requires = "liberty")]
     pub(crate) netlist: Option<PathBuf>,

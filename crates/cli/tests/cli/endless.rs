@@ -27,6 +27,8 @@ const CALLS: &[(&str, &str, &str)] = &[
     ("build", "--board", "build --board endless.toml --project -o out"),
     ("cosim", "--rtl", "cosim --rtl rtl"),
     ("cosim", "[INPUT]...", "cosim --preset bare ENDLESS"),
+    ("estimate", "--liberty", "estimate --preset bare --liberty ENDLESS"),
+    ("estimate", "--macros", "estimate --preset bare --liberty cells.lib --macros ENDLESS"),
     ("simulate", "<INPUT>...", "simulate ENDLESS -o out"),
     (
         "simulate",
@@ -127,6 +129,7 @@ fn prepare(folder: &Path) {
     link("endless.toml");
     fs::create_dir(folder.join("rtl")).unwrap();
     link("rtl/rcm.v");
+    fs::write(folder.join("cells.lib"), "library (a) { cell (b) { area : 1; } }").unwrap();
     let images = [0, 0, 8, 3, 0, 0, 0, 1, 0, 0, 0, 8, 0, 0, 0, 8];
     fs::write(folder.join("images-idx3-ubyte"), [&images[..], &[7; 64]].concat()).unwrap();
 }

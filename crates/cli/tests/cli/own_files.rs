@@ -238,9 +238,10 @@ fn files_of_others_survive_every_command() {
 #[test]
 fn a_file_that_is_replaced_keeps_its_mode() {
     use std::os::unix::fs::{MetadataExt as _, PermissionsExt as _};
-    let read = ["--config", "--labels", "--boxes", "--sensor-events", "--sink-stalls"];
+    let read = ["--config", "--labels", "--boxes", "--sensor-events", "--sink-stalls", "--macros"];
     let is_read = |option: &String| read.iter().any(|read| option.ends_with(read));
-    let written = ["cosim --junit", "cosim --packets", "fit --output", "live --page"];
+    let written =
+        ["cosim --junit", "cosim --packets", "estimate --netlist", "fit --output", "live --page"];
     let options = options_of("FILE").into_iter().filter(|option| !is_read(option));
     assert_eq!(options.collect::<Vec<_>>(), written, "an option that writes belongs here");
 
