@@ -151,7 +151,7 @@ def test_a_link_and_the_toml_have_the_map(still):
     path.write_text(facts["toml"])
     done = subprocess.run([FOVEATE, "check", path], capture_output=True, text=True, check=True)
     assert facts["fingerprint"] in done.stdout
-    # Of a small map, and of none.
+    # An empty map turns zones on.
     assert still(f"{START}&zones.classes=%22%22").evaluate("foveate.config.zones") is not None
 
 

@@ -52,8 +52,8 @@ pub use routing::{
 };
 pub use silicon::{
     CellTotals, LibertyLibrary, LibraryFigures, MacroChoice, MemoryFigures, MemoryTotals,
-    ModuleFigures, NOT_INCLUDED, SILICON_FORMAT_VERSION, SiliconError, SiliconJob, SiliconLeaf,
-    SiliconPath, SiliconReport, gate_netlist, map_to_silicon, render_silicon_markdown,
+    NOT_INCLUDED, SILICON_FORMAT_VERSION, SiliconError, SiliconJob, SiliconLeaf, SiliconPath,
+    SiliconReport, UnitFigures, gate_netlist, map_to_silicon, render_silicon_markdown,
     render_silicon_text,
 };
 pub use speed::{FrameRate, most_clocks_per_frame};

@@ -5,7 +5,7 @@
 //! between the modules of a nested design, which is not JSON, and 0.70 adds submodules to some
 //! figures. The format of the netlist itself has been stable for years.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Deserialize;
 
@@ -57,6 +57,11 @@ impl AreaNetlist {
             (name.clone(), AreaModule::new(name, module, &raw.modules))
         };
         Ok(Self(raw.modules.iter().map(module).collect()))
+    }
+
+    /// Returns the types of the cells of all modules.
+    pub(crate) fn cell_types(&self) -> BTreeSet<&str> {
+        self.0.values().flat_map(|module| module.cells.keys().map(String::as_str)).collect()
     }
 
     pub(crate) fn module(&self, name: &str) -> Result<&AreaModule, EstimateError> {

@@ -9,13 +9,10 @@ use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
-use flate2::bufread::MultiGzDecoder;
+use foveate_reading::{GZIP_MAGIC, unpacked};
 use foveate_toolchain::{Interrupt, InterruptibleReader, open_interruptibly};
 
 use crate::FootageError;
-
-/// The first bytes of a gzipped file.
-const GZIP: [u8; 2] = [0x1F, 0x8B];
 
 /// Opens a file, and unpacks it if it is gzipped.
 pub(crate) fn open_unpacked(path: &Path) -> Result<Box<dyn BufRead + Send>, FootageError> {
@@ -35,18 +32,10 @@ pub(crate) fn open_pipe(
     })
 }
 
-fn unpacked(input: impl Read + Send + 'static) -> io::Result<Box<dyn BufRead + Send>> {
-    let mut input = BufReader::new(input);
-    if input.fill_buf()?.starts_with(&GZIP) {
-        return Ok(Box::new(BufReader::new(MultiGzDecoder::new(input))));
-    }
-    Ok(Box::new(input))
-}
-
 /// Returns true if a file is gzipped.
 fn is_packed(path: &Path) -> Result<bool, FootageError> {
     let mut file = BufReader::new(File::open(path).map_err(unreadable(path))?);
-    Ok(file.fill_buf().map_err(unreadable(path))?.starts_with(&GZIP))
+    Ok(file.fill_buf().map_err(unreadable(path))?.starts_with(&GZIP_MAGIC))
 }
 
 fn unreadable(path: &Path) -> impl Fn(io::Error) -> FootageError + '_ {

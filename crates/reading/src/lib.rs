@@ -4,7 +4,7 @@
 //! A small file has a limit of bytes ([`read_text`], [`read_bytes`]). A table has a limit of bytes
 //! per record ([`table_reader`]), so that a table of any length can be read, but one endless record
 //! cannot take all memory. A reader of a whole document has a limit of bytes, too
-//! ([`LimitedReader`]). Reaching a limit is a distinct error and never looks like the end of a
+//! ([`LimitedReader`]), which also holds behind [`unpacked`], for files that may be gzipped. Reaching a limit is a distinct error and never looks like the end of a
 //! file.
 //!
 //! The errors are [`io::Error`]s of the kind [`io::ErrorKind::FileTooLarge`] or
@@ -16,9 +16,11 @@
 
 mod file;
 mod limited_reader;
+mod packed;
 mod size_text;
 mod table;
 
 pub use file::{SETTINGS_LIMIT, read_bytes, read_settings, read_text};
 pub use limited_reader::LimitedReader;
+pub use packed::{GZIP_MAGIC, unpacked};
 pub use table::{RECORD_LIMIT, TableReader, TableRecords, table_reader};

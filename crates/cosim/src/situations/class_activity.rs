@@ -4,10 +4,7 @@
 
 use super::port_situations::PortSituationCounts;
 use super::watched_ports::{WatchedClock, WatchedPorts};
-use foveate_design::{CLASSES_PER_WORD, RegionClass};
-
-/// The number of bits of the code of a class.
-const CODE_BITS: u32 = 2;
+use foveate_design::{CLASS_BITS, CLASSES_PER_WORD, RegionClass};
 
 /// The classes of the last frame, and whether a map waits.
 #[derive(Clone, Debug, Default)]
@@ -55,8 +52,8 @@ impl ClassActivity {
         }
         if is_written {
             let word = clock.value(&ports.class_word);
-            let codes = (0..CLASSES_PER_WORD).map(|place| word >> (CODE_BITS * place));
-            codes.for_each(|code| count_class(code & ((1 << CODE_BITS) - 1), facts));
+            let codes = (0..CLASSES_PER_WORD).map(|place| word >> (CLASS_BITS * place));
+            codes.for_each(|code| count_class(code & ((1 << CLASS_BITS) - 1), facts));
         }
         facts.map_within_frame += u64::from(is_committed && is_within);
         facts.map_between_frames += u64::from(is_committed && !is_within);

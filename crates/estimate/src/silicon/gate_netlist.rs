@@ -37,8 +37,7 @@ pub fn gate_netlist(
     let mut run = yosys::run(toolchain, cache, &job)?;
     let models = run.files.remove(MODELS).expect("it is the wanted file");
     let models = String::from_utf8_lossy(&models).into_owned();
-    let used = library.cells.keys().filter(|cell| uses(&mapped.gates, cell));
-    let texts = used.map(|cell| {
+    let texts = mapped.netlist.cell_types().into_iter().map(|cell| {
         yosys::module_text(&models, cell).ok_or_else(|| SiliconError::Netlist {
             reason: format!("there is no model of the cell `{cell}`"),
         })
@@ -58,12 +57,4 @@ fn with_parameters(gates: String, synthesis: &SynthesisJob) -> String {
     }
     let head = format!("module {}(", synthesis.array);
     gates.replacen(&head, &format!("module {} #({parameters}) (", synthesis.array), 1)
-}
-
-/// Returns true if a netlist has an instance of a cell, which stands in a line with its name.
-fn uses(netlist: &str, cell: &str) -> bool {
-    netlist.lines().any(|line| {
-        let rest = line.trim_start().strip_prefix(cell);
-        rest.is_some_and(|rest| rest.starts_with(' ') && rest.ends_with('('))
-    })
 }

@@ -13,7 +13,7 @@ use super::mapping::{MappedArray, map_array, map_leaves};
 use super::memory_plan::plan_memory;
 use super::net_names::source_name;
 use super::report::{
-    LibraryFigures, MemoryTotals, ModuleFigures, SILICON_FORMAT_VERSION, SiliconReport,
+    LibraryFigures, MemoryTotals, SILICON_FORMAT_VERSION, SiliconReport, UnitFigures,
 };
 use super::timing::{ModuleTiming, SiliconPath, time_module};
 use super::unit_instances::{LONE_UNIT, with_lone_unit, with_units};
@@ -120,7 +120,7 @@ pub fn map_to_silicon(
         is_sized: mapped.is_sized,
         regions: job.design.regions,
         region_size: job.region_size,
-        unit: ModuleFigures { name: job.design.unit_name.clone(), count: units, cells: unit },
+        unit: UnitFigures { name: job.design.unit_name.clone(), count: units, cells: unit },
         shared,
         array: shared.plus(unit, units),
         leaves: list_leaves(&leaves, library, &job.leaves_of)?,

@@ -42,7 +42,7 @@ pub(super) struct LibertyFault {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq)]
-enum Token<'a> {
+enum LibertyToken<'a> {
     /// A word, or a text in quotes without them.
     Word(&'a str),
     Symbol(char),
@@ -50,7 +50,7 @@ enum Token<'a> {
 
 /// Reads the one library of a file.
 pub(super) fn parse_library(text: &str) -> Result<LibertyGroup, LibertyFault> {
-    let mut reader = GroupReader { tokens: Tokens::new(text), depth: 0 };
+    let mut reader = LibertyReader { tokens: LibertyTokens::new(text), depth: 0 };
     let mut top = LibertyGroup::default();
     reader.read_statements(&mut top, true)?;
     let line = reader.tokens.line;
@@ -63,12 +63,12 @@ pub(super) fn parse_library(text: &str) -> Result<LibertyGroup, LibertyFault> {
     }
 }
 
-struct GroupReader<'a> {
-    tokens: Tokens<'a>,
+struct LibertyReader<'a> {
+    tokens: LibertyTokens<'a>,
     depth: usize,
 }
 
-impl<'a> GroupReader<'a> {
+impl<'a> LibertyReader<'a> {
     /// Reads statements up to the brace that ends the group, or to the end of the text.
     fn read_statements(
         &mut self,
@@ -79,10 +79,10 @@ impl<'a> GroupReader<'a> {
             match self.tokens.next()? {
                 None if is_top => return Ok(()),
                 None => return Err(self.fault("the file ends within a group".to_owned())),
-                Some((Token::Symbol('}'), _)) if !is_top => return Ok(()),
-                Some((Token::Symbol(';'), _)) => {}
-                Some((Token::Word(name), _)) => self.read_statement(name, group)?,
-                Some((Token::Symbol(symbol), _)) => {
+                Some((LibertyToken::Symbol('}'), _)) if !is_top => return Ok(()),
+                Some((LibertyToken::Symbol(';'), _)) => {}
+                Some((LibertyToken::Word(name), _)) => self.read_statement(name, group)?,
+                Some((LibertyToken::Symbol(symbol), _)) => {
                     return Err(self.fault(format!("`{symbol}` stands where a name is expected")));
                 }
             }
@@ -92,14 +92,14 @@ impl<'a> GroupReader<'a> {
     /// Reads what follows a name: a value, or arguments and perhaps a group.
     fn read_statement(&mut self, name: &str, group: &mut LibertyGroup) -> Result<(), LibertyFault> {
         match self.tokens.next()? {
-            Some((Token::Symbol(':'), line)) => {
+            Some((LibertyToken::Symbol(':'), line)) => {
                 let value = self.read_value(line)?;
                 group.attributes.push((name.to_owned(), value));
                 Ok(())
             }
-            Some((Token::Symbol('('), _)) => {
+            Some((LibertyToken::Symbol('('), _)) => {
                 let first = self.read_arguments()?;
-                if self.tokens.peek()? != Some(Token::Symbol('{')) {
+                if self.tokens.peek()? != Some(LibertyToken::Symbol('{')) {
                     return Ok(());
                 }
                 self.tokens.next()?;
@@ -125,7 +125,7 @@ impl<'a> GroupReader<'a> {
         let mut words: Vec<&str> = Vec::new();
         loop {
             match self.tokens.peek()? {
-                Some(Token::Word(word))
+                Some(LibertyToken::Word(word))
                     if words.is_empty() || self.tokens.line_of_next() == line =>
                 {
                     self.tokens.next()?;
@@ -144,12 +144,12 @@ impl<'a> GroupReader<'a> {
         let mut first = None;
         loop {
             match self.tokens.next()? {
-                Some((Token::Word(word), _)) => {
+                Some((LibertyToken::Word(word), _)) => {
                     first.get_or_insert_with(|| word.to_owned());
                 }
-                Some((Token::Symbol(')'), _)) => return Ok(first.unwrap_or_default()),
-                Some((Token::Symbol(',' | ':'), _)) => {}
-                Some((Token::Symbol(symbol), _)) => {
+                Some((LibertyToken::Symbol(')'), _)) => return Ok(first.unwrap_or_default()),
+                Some((LibertyToken::Symbol(',' | ':'), _)) => {}
+                Some((LibertyToken::Symbol(symbol), _)) => {
                     return Err(self.fault(format!("`{symbol}` stands among arguments")));
                 }
                 None => return Err(self.fault("the file ends among arguments".to_owned())),
@@ -162,28 +162,28 @@ impl<'a> GroupReader<'a> {
     }
 }
 
-struct Tokens<'a> {
+struct LibertyTokens<'a> {
     text: &'a str,
     letters: Peekable<CharIndices<'a>>,
     /// The line of the last letter that was read, from 1 on.
     line: usize,
     /// The next token, if it was read already, with its line.
-    next: Option<Option<(Token<'a>, usize)>>,
+    next: Option<Option<(LibertyToken<'a>, usize)>>,
 }
 
-impl<'a> Tokens<'a> {
+impl<'a> LibertyTokens<'a> {
     fn new(text: &'a str) -> Self {
         Self { text, letters: text.char_indices().peekable(), line: 1, next: None }
     }
 
-    fn next(&mut self) -> Result<Option<(Token<'a>, usize)>, LibertyFault> {
+    fn next(&mut self) -> Result<Option<(LibertyToken<'a>, usize)>, LibertyFault> {
         match self.next.take() {
             Some(token) => Ok(token),
             None => self.read(),
         }
     }
 
-    fn peek(&mut self) -> Result<Option<Token<'a>>, LibertyFault> {
+    fn peek(&mut self) -> Result<Option<LibertyToken<'a>>, LibertyFault> {
         if self.next.is_none() {
             self.next = Some(self.read()?);
         }
@@ -201,7 +201,7 @@ impl<'a> Tokens<'a> {
         letter
     }
 
-    fn read(&mut self) -> Result<Option<(Token<'a>, usize)>, LibertyFault> {
+    fn read(&mut self) -> Result<Option<(LibertyToken<'a>, usize)>, LibertyFault> {
         while let Some((start, letter)) = self.step() {
             let line = self.line;
             match letter {
@@ -215,12 +215,12 @@ impl<'a> Tokens<'a> {
                 }
                 '"' => {
                     let text = self.read_quoted(start + 1)?;
-                    return Ok(Some((Token::Word(text), line)));
+                    return Ok(Some((LibertyToken::Word(text), line)));
                 }
                 '(' | ')' | '{' | '}' | ';' | ':' | ',' => {
-                    return Ok(Some((Token::Symbol(letter), line)));
+                    return Ok(Some((LibertyToken::Symbol(letter), line)));
                 }
-                _ => return Ok(Some((Token::Word(self.read_word(start)), line))),
+                _ => return Ok(Some((LibertyToken::Word(self.read_word(start)), line))),
             }
         }
         Ok(None)

@@ -3,11 +3,10 @@
 
 use std::collections::BTreeMap;
 use std::fs::File;
-use std::io::{self, BufRead as _, BufReader, Read};
+use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
-use flate2::read::MultiGzDecoder;
-use foveate_reading::LimitedReader;
+use foveate_reading::{LimitedReader, unpacked};
 use foveate_toolchain::sha256_hex;
 
 use super::error::SiliconError;
@@ -16,8 +15,6 @@ use super::logic_function::truth_table;
 
 /// The largest file in bytes, after decompression. Libraries of a process have 2 to 100 MB.
 const FILE_LIMIT: u64 = 400_000_000;
-/// The first bytes of a file that gzip has compressed.
-const GZIP_MAGIC: [u8; 2] = [0x1F, 0x8B];
 
 /// A library of cells or of memories, from a liberty file.
 #[derive(Clone, Debug)]
@@ -33,12 +30,12 @@ pub struct LibertyLibrary {
     pub(super) voltage: Option<f64>,
     /// The unit of times in nanoseconds.
     pub(super) time_unit_ns: f64,
-    pub(super) cells: BTreeMap<String, LibraryCell>,
+    pub(super) cells: BTreeMap<String, LibertyCell>,
 }
 
 /// A cell of a library.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct LibraryCell {
+pub(super) struct LibertyCell {
     /// The area in square micrometres.
     pub(super) area: Option<f64>,
     pub(super) role: CellRole,
@@ -82,7 +79,7 @@ impl LibertyLibrary {
         })?;
         let cells: BTreeMap<_, _> = library
             .groups_of("cell")
-            .map(|cell| (cell.name.clone(), LibraryCell::from_group(cell)))
+            .map(|cell| (cell.name.clone(), LibertyCell::from_group(cell)))
             .collect();
         if cells.is_empty() {
             return Err(SiliconError::NoCells { path: path.to_owned() });
@@ -112,25 +109,27 @@ impl LibertyLibrary {
     /// Returns the memories with their areas.
     pub(super) fn memories(&self) -> impl Iterator<Item = (&str, MemoryShape, f64)> {
         self.cells.iter().filter_map(|(name, cell)| match cell.role {
-            CellRole::Memory(shape) => {
-                Some((name.as_str(), shape, cell.area.filter(|&area| area > 0.0)?))
-            }
+            CellRole::Memory(shape) => Some((name.as_str(), shape, cell.positive_area()?)),
             _ => None,
         })
     }
 
     fn areas_of(&self, role: CellRole) -> impl Iterator<Item = (&str, f64)> {
         let cells = self.cells.iter().filter(move |(_, cell)| cell.role == role);
-        cells
-            .filter_map(|(name, cell)| Some((name.as_str(), cell.area.filter(|&area| area > 0.0)?)))
+        cells.filter_map(|(name, cell)| Some((name.as_str(), cell.positive_area()?)))
     }
 }
 
-impl LibraryCell {
+impl LibertyCell {
     fn from_group(cell: &LibertyGroup) -> Self {
         let area = cell.attribute("area").and_then(|area| area.trim().parse::<f64>().ok());
         let area = area.filter(|area| area.is_finite() && *area >= 0.0);
         Self { area, role: CellRole::from_group(cell) }
+    }
+
+    /// Returns the area of a cell that takes any.
+    fn positive_area(&self) -> Option<f64> {
+        self.area.filter(|&area| area > 0.0)
     }
 }
 
@@ -199,14 +198,8 @@ fn time_unit_ns(library: &LibertyGroup) -> f64 {
 }
 
 fn read_text(path: &Path) -> io::Result<String> {
-    let mut file = BufReader::new(File::open(path)?);
-    let is_compressed = file.fill_buf()?.starts_with(&GZIP_MAGIC);
     let mut bytes = Vec::new();
-    if is_compressed {
-        LimitedReader::new(MultiGzDecoder::new(file), FILE_LIMIT).read_to_end(&mut bytes)?;
-    } else {
-        LimitedReader::new(file, FILE_LIMIT).read_to_end(&mut bytes)?;
-    }
+    LimitedReader::new(unpacked(File::open(path)?)?, FILE_LIMIT).read_to_end(&mut bytes)?;
     // Comments may have letters in other encodings.
     let text = String::from_utf8_lossy(&bytes);
     Ok(text.trim_start_matches('\u{feff}').to_owned())

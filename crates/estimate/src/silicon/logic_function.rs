@@ -15,7 +15,8 @@ pub(super) fn truth_table(function: &str, inputs: &[&str]) -> Option<Vec<bool>> 
         return None;
     }
     let value = |combination: usize| {
-        let mut evaluation = Evaluation { text: function.trim(), inputs, combination, depth: 0 };
+        let mut evaluation =
+            FunctionEvaluation { text: function.trim(), inputs, combination, depth: 0 };
         let value = evaluation.or()?;
         evaluation.text.is_empty().then_some(value)
     };
@@ -23,14 +24,14 @@ pub(super) fn truth_table(function: &str, inputs: &[&str]) -> Option<Vec<bool>> 
 }
 
 /// The evaluation of the rest of a text for one combination of inputs.
-struct Evaluation<'a> {
+struct FunctionEvaluation<'a> {
     text: &'a str,
     inputs: &'a [&'a str],
     combination: usize,
     depth: usize,
 }
 
-impl Evaluation<'_> {
+impl FunctionEvaluation<'_> {
     fn or(&mut self) -> Option<bool> {
         let mut value = self.and()?;
         while self.takes(&['|', '+']) {

@@ -37,14 +37,14 @@ pub(super) struct MappedArray {
     pub(super) gates: String,
     /// The netlist as Verilog for OpenSTA.
     pub(super) verilog: String,
-    pub(super) memories: Vec<CutMemory>,
+    pub(super) memories: Vec<UnmappedMemory>,
     /// True if gates were sized and buffers were added for their loads.
     pub(super) is_sized: bool,
 }
 
 /// A memory of a module that is not in the netlist.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct CutMemory {
+pub(super) struct UnmappedMemory {
     pub(super) name: String,
     pub(super) width: u64,
     pub(super) words: u64,
@@ -185,7 +185,7 @@ fn cut_memories(
     netlist: &AreaNetlist,
     json: &Value,
     array: &str,
-) -> Result<Vec<CutMemory>, SiliconError> {
+) -> Result<Vec<UnmappedMemory>, SiliconError> {
     let unreadable = |reason: String| SiliconError::Netlist { reason };
     let counts = netlist.instances(array, &[]).map_err(|error| unreadable(error.to_string()))?;
     let modules = json["modules"].as_object().into_iter().flatten();
@@ -200,7 +200,7 @@ fn cut_memories(
                     unreadable(format!("the memory `{name}` has no number `{parameter}`"))
                 })
             };
-            found.push(CutMemory {
+            found.push(UnmappedMemory {
                 name: instance_path(name),
                 width: number("WIDTH")?,
                 words: number("WORDS")?,

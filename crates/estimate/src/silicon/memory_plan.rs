@@ -9,7 +9,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::library::{LibertyLibrary, MemoryShape};
-use super::mapping::CutMemory;
+use super::mapping::UnmappedMemory;
 
 /// A memory of a module that is not mapped to cells.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -46,7 +46,7 @@ impl MemoryFigures {
 }
 
 /// Chooses macros for a memory.
-pub(super) fn plan_memory(memory: &CutMemory, libraries: &[LibertyLibrary]) -> MemoryFigures {
+pub(super) fn plan_memory(memory: &UnmappedMemory, libraries: &[LibertyLibrary]) -> MemoryFigures {
     let macros = libraries.iter().flat_map(LibertyLibrary::memories);
     let fitting = macros.filter(|(_, shape, _)| fits(memory, *shape));
     let choices = fitting.map(|(name, shape, area)| {
@@ -64,7 +64,7 @@ pub(super) fn plan_memory(memory: &CutMemory, libraries: &[LibertyLibrary]) -> M
     }
 }
 
-fn fits(memory: &CutMemory, shape: MemoryShape) -> bool {
+fn fits(memory: &UnmappedMemory, shape: MemoryShape) -> bool {
     memory.is_clocked && shape.ports as u64 >= memory.reads + memory.writes && shape.width > 0
 }
 
@@ -80,8 +80,16 @@ mod tests {
         LibertyLibrary::read(Path::new(&path)).unwrap()
     }
 
-    fn memory(words: u64, width: u64, is_clocked: bool) -> CutMemory {
-        CutMemory { name: "u".to_owned(), width, words, reads: 1, writes: 1, is_clocked, count: 3 }
+    fn memory(words: u64, width: u64, is_clocked: bool) -> UnmappedMemory {
+        UnmappedMemory {
+            name: "u".to_owned(),
+            width,
+            words,
+            reads: 1,
+            writes: 1,
+            is_clocked,
+            count: 3,
+        }
     }
 
     fn ram(name: &str, area: u32, (address, width): (u32, u32), ports: usize) -> String {

@@ -29,7 +29,6 @@ pub use library::LibertyLibrary;
 pub use memory_plan::{MacroChoice, MemoryFigures};
 pub use render::{render_silicon_markdown, render_silicon_text};
 pub use report::{
-    LibraryFigures, MemoryTotals, ModuleFigures, NOT_INCLUDED, SILICON_FORMAT_VERSION,
-    SiliconReport,
+    LibraryFigures, MemoryTotals, NOT_INCLUDED, SILICON_FORMAT_VERSION, SiliconReport, UnitFigures,
 };
 pub use timing::SiliconPath;

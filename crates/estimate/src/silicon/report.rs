@@ -35,7 +35,7 @@ pub struct SiliconReport {
     /// The pixels of a region along one side.
     pub region_size: u32,
     /// The unit of which the array has many: an RPU, a lane or a core.
-    pub unit: ModuleFigures,
+    pub unit: UnitFigures,
     /// The logic that the units share.
     pub shared: CellTotals,
     /// All cells of the array, without memories that are not mapped.
@@ -72,7 +72,7 @@ pub struct LibraryFigures {
 
 /// The figures of the unit of an array.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct ModuleFigures {
+pub struct UnitFigures {
     /// The name of the module for people.
     pub name: String,
     /// The number of instances.
