@@ -8,6 +8,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Deserialize;
+use serde_json::Value;
 
 use crate::area::Area;
 use crate::error::EstimateError;
@@ -38,9 +39,9 @@ struct RawAreaNetlist {
 struct RawAreaModule {
     cells: BTreeMap<String, RawAreaCell>,
     #[serde(default)]
-    attributes: BTreeMap<String, serde_json::Value>,
+    attributes: BTreeMap<String, Value>,
     #[serde(default)]
-    parameter_default_values: BTreeMap<String, serde_json::Value>,
+    parameter_default_values: BTreeMap<String, Value>,
 }
 
 #[derive(Deserialize)]
@@ -51,8 +52,19 @@ struct RawAreaCell {
 
 impl AreaNetlist {
     pub(crate) fn parse(file: &'static str, json: &[u8]) -> Result<Self, EstimateError> {
-        let raw: RawAreaNetlist = serde_json::from_slice(json)
-            .map_err(|source| EstimateError::UnreadableFile { file, source })?;
+        Self::from_raw(file, serde_json::from_slice(json))
+    }
+
+    /// Reads the modules from JSON that is parsed already.
+    pub(crate) fn from_value(file: &'static str, json: &Value) -> Result<Self, EstimateError> {
+        Self::from_raw(file, RawAreaNetlist::deserialize(json))
+    }
+
+    fn from_raw(
+        file: &'static str,
+        raw: serde_json::Result<RawAreaNetlist>,
+    ) -> Result<Self, EstimateError> {
+        let raw = raw.map_err(|source| EstimateError::UnreadableFile { file, source })?;
         let module = |(name, module): (&String, &RawAreaModule)| {
             (name.clone(), AreaModule::new(name, module, &raw.modules))
         };
@@ -147,7 +159,7 @@ impl AreaModule {
             let counts = if is_module { &mut module.submodules } else { &mut module.cells };
             *counts.entry(cell.kind.clone()).or_default() += 1;
         }
-        let hdlname = raw.attributes.get("hdlname").and_then(serde_json::Value::as_str);
+        let hdlname = raw.attributes.get("hdlname").and_then(Value::as_str);
         let source_name = hdlname.unwrap_or(name);
         // Older versions keep the backslash that Yosys puts before public names.
         module.source_name = source_name.strip_prefix('\\').unwrap_or(source_name).to_owned();
@@ -159,7 +171,7 @@ impl AreaModule {
 }
 
 /// Returns a parameter as text. Yosys writes numbers as strings of binary digits, and text as text.
-fn parameter_text(value: &serde_json::Value) -> String {
+fn parameter_text(value: &Value) -> String {
     let Some(text) = value.as_str() else { return value.to_string() };
     u64::from_str_radix(text, 2).map_or_else(|_| text.trim_end().to_owned(), |n| n.to_string())
 }

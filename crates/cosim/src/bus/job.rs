@@ -137,12 +137,7 @@ impl BusJob {
         replay::remove_earlier(&self.output)?;
 
         let start = Instant::now();
-        let mut others: Vec<_> = other_threshold_designs(&self.design);
-        let mut classes = vec![RegionClass::Normal; others.len()];
-        for class in [RegionClass::Normal, RegionClass::Keen, RegionClass::Off] {
-            others.extend(threshold_sweep(&self.design, class));
-            classes.resize(others.len(), class);
-        }
+        let (classes, others) = self.other_designs();
         let cameras = cameras(&self.design, &others);
         let all: Vec<Design> = std::iter::once(&self.design).chain(&others).cloned().collect();
         let missed = StaleThreshold::all_of(&all);
@@ -202,6 +197,18 @@ impl BusJob {
                 run: start.elapsed().as_secs_f64(),
             },
         })
+    }
+
+    /// Returns the core with other thresholds, and of each the class whose regions show that they differ.
+    fn other_designs(&self) -> (Vec<RegionClass>, Vec<Design>) {
+        let others = other_threshold_designs(&self.design);
+        let others = others.into_iter().map(|other| (RegionClass::Normal, other));
+        let swept = [RegionClass::Normal, RegionClass::Keen, RegionClass::Off]
+            .into_iter()
+            .flat_map(|class| {
+                threshold_sweep(&self.design, class).into_iter().map(move |other| (class, other))
+            });
+        others.chain(swept).unzip()
     }
 
     fn scenes<'a>(

@@ -28,9 +28,7 @@ impl CellTotals {
         top: &str,
         without: &[&str],
     ) -> Result<Self, SiliconError> {
-        let unusable = |reason: String| SiliconError::Netlist { reason };
-        let counts =
-            netlist.instances(top, without).map_err(|error| unusable(error.to_string()))?;
+        let counts = netlist.instances(top, without)?;
         let own = counts.iter().filter(|(name, _)| !without.contains(&name.as_str()));
         let all = std::iter::once((top, 1)).chain(own.map(|(name, &count)| (name.as_str(), count)));
         let mut total = Self::default();
@@ -46,9 +44,7 @@ impl CellTotals {
         library: &LibertyLibrary,
         name: &str,
     ) -> Result<Self, SiliconError> {
-        let unusable = |error: crate::EstimateError| error.to_string();
-        let module = netlist.module(name).map_err(unusable);
-        let module = module.map_err(|reason| SiliconError::Netlist { reason })?;
+        let module = netlist.module(name)?;
         let mut total = Self::default();
         for (cell, &count) in &module.cells {
             total.add(library, (&module.source_name, cell), count)?;

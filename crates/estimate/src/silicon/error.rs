@@ -7,6 +7,8 @@ use std::path::PathBuf;
 use foveate_toolchain::ToolError;
 use thiserror::Error;
 
+use crate::EstimateError;
+
 /// An error of a mapping to the cells of a library.
 #[derive(Debug, Error)]
 #[non_exhaustive]
@@ -112,4 +114,11 @@ pub enum SiliconError {
         /// The message of OpenSTA, or what its report lacks.
         reason: String,
     },
+}
+
+impl From<EstimateError> for SiliconError {
+    /// Makes an error of a netlist that cannot be used.
+    fn from(error: EstimateError) -> Self {
+        Self::Netlist { reason: error.to_string() }
+    }
 }

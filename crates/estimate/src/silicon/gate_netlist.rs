@@ -6,10 +6,9 @@ use foveate_toolchain::{Cache, SynthesisJob, Toolchain};
 
 use super::error::SiliconError;
 use super::job::SiliconJob;
-use super::library::LibertyLibrary;
+use super::library::{CELLS, LibertyLibrary};
 use super::mapping::map_array;
 
-const CELLS: &str = "cells.lib";
 const MODELS: &str = "models.v";
 
 /// Maps a design as [`map_to_silicon`](super::map_to_silicon) does, and returns the netlist as Verilog: the
@@ -32,8 +31,8 @@ pub fn gate_netlist(
     }
     let script =
         format!("read_liberty -ignore_miss_func {CELLS}\nwrite_verilog -noattr {MODELS}\n");
-    let sources = vec![(CELLS.to_owned(), library.text.clone())];
-    let job = YosysJob { sources, script, outputs: vec![MODELS.to_owned()] };
+    let job =
+        YosysJob { sources: vec![library.source()], script, outputs: vec![MODELS.to_owned()] };
     let mut run = yosys::run(toolchain, cache, &job)?;
     let models = run.files.remove(MODELS).expect("it is the wanted file");
     let models = String::from_utf8_lossy(&models).into_owned();

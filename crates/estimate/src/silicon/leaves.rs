@@ -28,12 +28,10 @@ pub(super) fn list_leaves(
     library: &LibertyLibrary,
     top: &str,
 ) -> Result<Vec<SiliconLeaf>, SiliconError> {
-    let unusable =
-        |error: crate::EstimateError| SiliconError::Netlist { reason: error.to_string() };
     let mut leaves: Vec<SiliconLeaf> = Vec::new();
-    let inside = netlist.instances(top, &[]).map_err(unusable)?;
+    let inside = netlist.instances(top, &[])?;
     for (name, instances) in std::iter::once((top.to_owned(), 1)).chain(inside) {
-        let module = netlist.module(&name).map_err(unusable)?;
+        let module = netlist.module(&name)?;
         let cells = CellTotals::of_own_cells(netlist, library, &name)?;
         let (module, parameters) = (module.source_name.clone(), module.parameters.clone());
         let same = |leaf: &&mut SiliconLeaf| {

@@ -7,12 +7,14 @@ use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
 use foveate_reading::{LimitedReader, unpacked};
-use foveate_toolchain::sha256_hex;
+use foveate_toolchain::{Source, sha256_hex};
 
 use super::error::SiliconError;
 use super::liberty_text::{LibertyGroup, parse_library};
 use super::logic_function::truth_table;
 
+/// The name of the file of a library among the sources of a tool.
+pub(super) const CELLS: &str = "cells.lib";
 /// The largest file in bytes, after decompression. Libraries of a process have 2 to 100 MB.
 const FILE_LIMIT: u64 = 400_000_000;
 
@@ -25,7 +27,7 @@ pub struct LibertyLibrary {
     pub name: String,
     /// The hash of the file's text.
     pub sha256: String,
-    pub(super) text: String,
+    text: String,
     /// The nominal voltage in volts, if the file has one.
     pub(super) voltage: Option<f64>,
     /// The unit of times in nanoseconds.
@@ -93,6 +95,11 @@ impl LibertyLibrary {
             cells,
             text,
         })
+    }
+
+    /// Returns the file of the library, [`CELLS`], for a tool.
+    pub(super) fn source(&self) -> Source {
+        (CELLS.to_owned(), self.text.clone())
     }
 
     /// Returns the area of a gate equivalent, that of the smallest NAND of two inputs.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The function of an output pin of a liberty library, as a table of truth values.
 //!
-//! The operators are `!` before and `'` behind an operand, `&`, `*` and a space for and, `|` and `+`
-//! for or, and `^` for exclusive or. And binds stronger than exclusive or, and that stronger than or.
+//! The operators are `!` before and `'` behind an operand, `^` for exclusive or, `&`, `*` and a space for
+//! and, `|` and `+` for or. Each of them binds stronger than those that stand behind it in this list.
 
 /// The largest number of inputs of a function that is evaluated.
 const MAX_INPUTS: usize = 4;

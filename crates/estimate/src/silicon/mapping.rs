@@ -7,17 +7,16 @@ use foveate_toolchain::{Cache, Source, SynthesisJob, Tool, ToolRecord, Toolchain
 use serde_json::Value;
 
 use super::error::SiliconError;
-use super::library::LibertyLibrary;
-use crate::netlist::AreaNetlist;
+use super::library::{CELLS, LibertyLibrary};
+use crate::error::EstimateError;
+use crate::netlist::{AreaNetlist, NETLIST};
 
-const CELLS: &str = "cells.lib";
 const CONSTRAINTS: &str = "abc.constr";
 const BOX: &str = "memory_box.v";
 const CUT: &str = "memory_cut.v";
 /// The load of a port or register in femtofarads, for the sizing of gates.
 const LOAD_FF: u32 = 10;
 const MEMORIES: &str = "memories.json";
-const NETLIST: &str = "netlist.json";
 const GATES: &str = "gates.v";
 const VERILOG: &str = "netlist.v";
 /// The module that stands for a memory that is cut out.
@@ -67,24 +66,17 @@ pub(super) fn map_array(
     let version = toolchain.find(Tool::Yosys)?.banner;
     let mut run = yosys::run(toolchain, cache, &mapping_job(synthesis, library, limit))?;
     let mut file = |name| run.files.remove(name).expect("it is one of the wanted files");
-    let (before, after) = (file(MEMORIES), file(NETLIST));
-    let parsed = |json: &[u8]| {
-        AreaNetlist::parse(NETLIST, json)
-            .map_err(|error| SiliconError::Netlist { reason: error.to_string() })
-    };
-    let json = |bytes: &[u8]| {
-        serde_json::from_slice::<Value>(bytes)
-            .map_err(|error| SiliconError::Netlist { reason: error.to_string() })
-    };
+    let (before, after) =
+        (json_value(MEMORIES, &file(MEMORIES))?, json_value(NETLIST, &file(NETLIST))?);
     Ok(MappedArray {
         tool: ToolRecord {
             name: "Yosys".to_owned(),
             version,
             flags: format!("synth -flatten, dfflibmap, abc; {} kept as a module", synthesis.unit),
         },
-        memories: cut_memories(&parsed(&before)?, &json(&before)?, &synthesis.array)?,
-        netlist: parsed(&after)?,
-        json: json(&after)?,
+        memories: cut_memories(&before, &synthesis.array)?,
+        netlist: AreaNetlist::from_value(NETLIST, &after)?,
+        json: after,
         gates: String::from_utf8_lossy(&file(GATES)).into_owned(),
         verilog: String::from_utf8_lossy(&file(VERILOG)).into_owned(),
         is_sized: library.smallest_buffer().is_some(),
@@ -107,8 +99,11 @@ pub(super) fn map_leaves(
     let (sources, outputs) = (job_sources(synthesis, library, limit), vec![NETLIST.to_owned()]);
     let mut run = yosys::run(toolchain, cache, &YosysJob { sources, script, outputs })?;
     let json = run.files.remove(NETLIST).expect("it is the wanted file");
-    AreaNetlist::parse(NETLIST, &json)
-        .map_err(|error| SiliconError::Netlist { reason: error.to_string() })
+    Ok(AreaNetlist::parse(NETLIST, &json)?)
+}
+
+fn json_value(file: &'static str, bytes: &[u8]) -> Result<Value, EstimateError> {
+    serde_json::from_slice(bytes).map_err(|source| EstimateError::UnreadableFile { file, source })
 }
 
 fn mapping_job(synthesis: &SynthesisJob, library: &LibertyLibrary, limit: u64) -> YosysJob {
@@ -170,7 +165,7 @@ fn cell_commands(buffer: Option<&str>) -> String {
 /// Returns the files that the script reads.
 fn job_sources(synthesis: &SynthesisJob, library: &LibertyLibrary, limit: u64) -> Vec<Source> {
     let mut sources = synthesis.sources.clone();
-    sources.push((CELLS.to_owned(), library.text.clone()));
+    sources.push(library.source());
     sources.push((BOX.to_owned(), BOX_TEXT.to_owned()));
     sources.push((CUT.to_owned(), CUT_TEXT.replace("LIMIT", &limit.to_string())));
     if let Some(buffer) = library.smallest_buffer() {
@@ -181,13 +176,8 @@ fn job_sources(synthesis: &SynthesisJob, library: &LibertyLibrary, limit: u64) -
 }
 
 /// Lists the memories that were cut out; those of all instances of a module are one entry.
-fn cut_memories(
-    netlist: &AreaNetlist,
-    json: &Value,
-    array: &str,
-) -> Result<Vec<UnmappedMemory>, SiliconError> {
-    let unreadable = |reason: String| SiliconError::Netlist { reason };
-    let counts = netlist.instances(array, &[]).map_err(|error| unreadable(error.to_string()))?;
+fn cut_memories(json: &Value, array: &str) -> Result<Vec<UnmappedMemory>, SiliconError> {
+    let counts = AreaNetlist::from_value(MEMORIES, json)?.instances(array, &[])?;
     let modules = json["modules"].as_object().into_iter().flatten();
     let mut found = Vec::new();
     for (module, content) in modules {
@@ -196,8 +186,8 @@ fn cut_memories(
         for (name, cell) in cells.filter(|(_, cell)| cell["type"] == MEMORY_MODULE) {
             let number = |parameter: &str| {
                 let text = cell["parameters"][parameter].as_str().unwrap_or_default();
-                u64::from_str_radix(text, 2).map_err(|_| {
-                    unreadable(format!("the memory `{name}` has no number `{parameter}`"))
+                u64::from_str_radix(text, 2).map_err(|_| SiliconError::Netlist {
+                    reason: format!("the memory `{name}` has no number `{parameter}`"),
                 })
             };
             found.push(UnmappedMemory {

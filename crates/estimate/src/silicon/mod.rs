@@ -4,6 +4,7 @@
 //! Yosys maps the Verilog to the cells of a liberty file, and OpenSTA times the netlist. The files are
 //! the user's own: those of open processes, or of a foundry.
 
+mod array_timing;
 mod cell_totals;
 mod error;
 mod gate_netlist;

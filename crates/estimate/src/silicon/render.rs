@@ -89,15 +89,16 @@ fn area_row(report: &SiliconReport, name: &str, count: u64, cells: CellTotals) -
 }
 
 fn memory_table(report: &SiliconReport) -> Option<ReportTable> {
-    let first = report.memories.first()?;
-    let has_macros = report.memories.iter().any(|memory| memory.macros.is_some());
+    if report.memories.is_empty() {
+        return None;
+    }
     let limit = grouped(report.memory_limit);
-    let why = match (has_macros, first.macros.is_none()) {
-        (false, true) => "; no macro holds them, so their area is not in any figure",
+    let without_macros = match report.memory.macros {
+        0 => "; no macro holds them, so their area is not in any figure",
         _ => "",
     };
     Some(ReportTable {
-        title: format!("Memories of more than {limit} bits{why}"),
+        title: format!("Memories of more than {limit} bits{without_macros}"),
         header: header("memory", &MEMORY_COLUMNS),
         rows: report.memories.iter().map(memory_row).collect(),
         note: None,

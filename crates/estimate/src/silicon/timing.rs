@@ -6,9 +6,8 @@ use foveate_toolchain::{Cache, Tool, ToolRecord, Toolchain};
 use serde::{Deserialize, Serialize};
 
 use super::error::SiliconError;
-use super::library::LibertyLibrary;
+use super::library::{CELLS, LibertyLibrary};
 
-const CELLS: &str = "cells.lib";
 const NETLIST: &str = "netlist.v";
 /// The period of the clock in nanoseconds. OpenSTA computes with 24 bits, so a longer one would cost
 /// digits of the path.
@@ -67,8 +66,7 @@ pub(super) fn time_module(
          puts \"{END_MARK}\"\n",
         period = PERIOD_NS / unit
     );
-    let files =
-        vec![(CELLS.to_owned(), library.text.clone()), (NETLIST.to_owned(), verilog.to_owned())];
+    let files = vec![library.source(), (NETLIST.to_owned(), verilog.to_owned())];
     let log = opensta::run(toolchain, cache, &OpenStaJob { files, script })?;
     let failed = |reason: &str| SiliconError::Timing { reason: reason.to_owned() };
     if let Some(error) = log.lines().find(|line| line.starts_with("Error")) {

@@ -43,6 +43,14 @@ impl PictureLayout {
         Self::enlarged(camera.width(), camera.height(), least)
     }
 
+    /// Returns the left, top, width and height of the region in a column and row, whose regions have a
+    /// side of `cell` in the picture. Those at the right and bottom edge may be smaller.
+    pub(super) fn region_area(self, cell: u32, (column, row): (u32, u32)) -> [u32; 4] {
+        let (left, top) = (column * cell, row * cell);
+        let (width, height) = (self.frame_width - left, self.frame_height - top);
+        [left, top, cell.min(width), cell.min(height)]
+    }
+
     /// Returns the layout of pictures of a frame whose pixels are enlarged by `least` or more, unless
     /// the picture becomes too high.
     fn enlarged(width: u32, height: u32, least: u32) -> Self {

@@ -7,52 +7,55 @@ use foveate_pictures::palette::{Colour, SERIES};
 
 use super::canvas::{BACKGROUND, PictureCanvas, PictureLayout};
 use super::font;
-use super::sink::SinkFrame;
 
 /// The share by which a stripe of the hatching darkens.
 const HATCHING: f64 = 0.6;
 
-/// The classes of the regions of a frame, with at least one that is not normal.
-pub(super) struct ClassMarks {
-    classes: Vec<RegionClass>,
+/// The classes of the regions of a camera, with at least one that is not normal.
+pub(super) struct ClassMarks<'a> {
+    classes: &'a [RegionClass],
     columns: u32,
     rows: u32,
 }
 
-impl ClassMarks {
-    /// Returns the marks of a frame. There are none if all regions are normal, or if the map of the
-    /// frame is not known, because a recording says only that it is not that of the design.
-    pub(super) fn of_frame(sink_frame: &SinkFrame<'_>) -> Option<Self> {
-        let SinkFrame { camera, map_version, .. } = sink_frame;
-        if camera.zones().is_none() || map_version.is_some_and(|version| version > 0) {
-            return None;
-        }
-        let classes = camera.configured_classes();
+impl<'a> ClassMarks<'a> {
+    /// Returns the marks of the map in a camera's configuration, or `None` if all of its regions are
+    /// normal.
+    pub(super) fn of_camera(camera: &'a Camera) -> Option<Self> {
+        let classes = camera.zones()?.configured_classes();
         let is_marked = classes.iter().any(|&class| class != RegionClass::Normal);
         is_marked.then(|| Self { classes, columns: camera.columns(), rows: camera.rows() })
     }
 
-    /// Returns true if every frame of a camera may have marks, so that pictures have space for their
-    /// legend.
-    pub(super) fn are_possible(camera: &Camera) -> bool {
-        camera.configured_classes().iter().any(|&class| class != RegionClass::Normal)
-    }
-
     /// Draws the marks on the picture of a frame.
     pub(super) fn draw(&self, canvas: &mut PictureCanvas, cell: u32, layout: PictureLayout) {
-        for (region, &class) in (0..).zip(&self.classes) {
-            let (column, row) = (region % self.columns, region / self.columns);
-            let (left, top) = (column * cell, row * cell);
-            let width = cell.min(layout.frame_width - left);
-            let height = cell.min(layout.frame_height - top);
-            let area = [left, top, width, height];
+        for (region, &class) in (0..).zip(self.classes) {
+            let place = (region % self.columns, region / self.columns);
+            let area = layout.region_area(cell, place);
             match class {
                 RegionClass::Normal => {}
                 RegionClass::Off => hatch(canvas, area, layout.dot),
                 RegionClass::Keen | RegionClass::Always => {
-                    self.draw_edges(canvas, (column, row), area, layout.dot);
+                    self.draw_edges(canvas, place, area, layout.dot);
                 }
             }
+        }
+    }
+
+    /// Draws the legend of the classes that the map has.
+    pub(super) fn draw_legend(&self, canvas: &mut PictureCanvas, layout: PictureLayout, top: u32) {
+        let (dot, side) = (layout.dot, font::SIZE.1 * layout.dot);
+        let mut left = 2 * dot;
+        for &class in RegionClass::ALL.iter().filter(|class| self.classes.contains(class)) {
+            match (class, class_colour(class)) {
+                (RegionClass::Off, _) => {
+                    canvas.fill_rectangle(left, top, side, side, [128; 3]);
+                    hatch(canvas, [left, top, side, side], dot);
+                }
+                (_, Some(colour)) => canvas.draw_border([left, top, side, side], dot, colour),
+                (_, None) => continue,
+            }
+            left = canvas.draw_text(left + side + dot, top, dot, class.name()) + 3 * dot;
         }
     }
 
@@ -84,29 +87,6 @@ impl ClassMarks {
     fn class_at(&self, column: u32, row: u32) -> Option<RegionClass> {
         let is_inside = column < self.columns && row < self.rows;
         is_inside.then(|| self.classes[(row * self.columns + column) as usize])
-    }
-}
-
-/// Draws the legend of the classes that the map of a camera has.
-pub(super) fn draw_class_legend(
-    canvas: &mut PictureCanvas,
-    layout: PictureLayout,
-    top: u32,
-    camera: &Camera,
-) {
-    let (dot, side) = (layout.dot, font::SIZE.1 * layout.dot);
-    let classes = camera.configured_classes();
-    let mut left = 2 * dot;
-    for &class in RegionClass::ALL.iter().filter(|class| classes.contains(class)) {
-        match (class, class_colour(class)) {
-            (RegionClass::Off, _) => {
-                canvas.fill_rectangle(left, top, side, side, [128; 3]);
-                hatch(canvas, [left, top, side, side], dot);
-            }
-            (_, Some(colour)) => canvas.draw_border([left, top, side, side], dot, colour),
-            (_, None) => continue,
-        }
-        left = canvas.draw_text(left + side + dot, top, dot, class.name()) + 3 * dot;
     }
 }
 

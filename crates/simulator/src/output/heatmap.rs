@@ -110,9 +110,8 @@ impl PicturePainter for HeatmapPainter {
         let mut canvas = PictureCanvas::new(layout.width, layout.frame_height + footer);
         let cell = camera.region_size() * layout.scale;
         for region in 0..camera.regions() {
-            let (left, top) = (region % camera.columns() * cell, region / camera.columns() * cell);
-            let width = cell.min(layout.frame_width - left);
-            let height = cell.min(layout.frame_height - top);
+            let place = (region % camera.columns(), region / camera.columns());
+            let [left, top, width, height] = layout.region_area(cell, place);
             let colour =
                 scale_colour(self.scale_step(self.score_of_region(sink_frame, region as usize)));
             canvas.fill_rectangle(left, top, width, height, colour);

@@ -13,7 +13,7 @@ use foveate_pictures::palette::{ACTIVE, ACTIVE_BRIGHT, CHANGED, Colour, RELEVANT
 use super::activity_chart::ActivityChart;
 use super::arrow::Arrow;
 use super::canvas::{PictureCanvas, PictureLayout, TEXT};
-use super::class_marks::{ClassMarks, draw_class_legend};
+use super::class_marks::ClassMarks;
 use super::font;
 use super::picture_series::PicturePainter;
 use super::raw_image::to_byte;
@@ -46,21 +46,22 @@ impl PicturePainter for OverlayPainter {
         let frame = &sink_frame.source.frame;
         let layout = PictureLayout::of_camera(sink_frame.camera);
         let line = (font::SIZE.1 + 4) * layout.dot;
-        let has_classes = ClassMarks::are_possible(sink_frame.camera);
-        let legend = if has_classes { 2 * line } else { line };
+        let marks = ClassMarks::of_camera(sink_frame.camera);
+        let legend = if marks.is_some() { 2 * line } else { line };
         let height = layout.frame_height + legend + ActivityChart::HEIGHT_DOTS * layout.dot;
         let mut canvas = PictureCanvas::new(layout.width, height);
         draw_frame(&mut canvas, frame, sink_frame, layout);
-        if let Some(marks) = ClassMarks::of_frame(sink_frame) {
+        // A recording says of another map only that it is not that of the design.
+        let has_own_map = sink_frame.map_version.is_none_or(|version| version == 0);
+        if let Some(marks) = marks.as_ref().filter(|_| has_own_map) {
             marks.draw(&mut canvas, sink_frame.camera.region_size() * layout.scale, layout);
         }
         draw_arrows(&mut canvas, sink_frame, layout, self.has_scores);
         let regions = sink_frame.camera.regions();
         let active = sink_frame.outcome.active.iter().map(|&bit| u32::from(bit)).sum();
         draw_legend(&mut canvas, layout, active, sink_frame.camera);
-        if has_classes {
-            let top = layout.frame_height + line + 2 * layout.dot;
-            draw_class_legend(&mut canvas, layout, top, sink_frame.camera);
+        if let Some(marks) = marks {
+            marks.draw_legend(&mut canvas, layout, layout.frame_height + line + 2 * layout.dot);
         }
         self.activity_chart
             .push(active.into(), (layout.width / ActivityChart::bar_width(layout)) as usize);
@@ -92,17 +93,15 @@ fn draw_frame(
     for (column, row) in (0..sink_frame.camera.rows())
         .flat_map(|row| (0..sink_frame.camera.columns()).map(move |column| (column, row)))
     {
-        let (left, top) = (column * cell, row * cell);
-        let width = cell.min(layout.frame_width - left);
-        let height = cell.min(layout.frame_height - top);
+        let area @ [left, top, width, height] = layout.region_area(cell, (column, row));
         lighten_line(canvas, [left, top, width, 1]);
         lighten_line(canvas, [left, top, 1, height]);
         let region = (row * sink_frame.camera.columns() + column) as usize;
         if sink_frame.outcome.active[region] {
-            canvas.draw_border([left, top, width, height], 1 + cell / 40, ACTIVE_BRIGHT);
+            canvas.draw_border(area, 1 + cell / 40, ACTIVE_BRIGHT);
         }
         if sink_frame.outcome.actions[region] == RegionAction::Summarize {
-            canvas.draw_border([left, top, width, height], 1, TEXT);
+            canvas.draw_border(area, 1, TEXT);
         }
     }
 }
