@@ -283,7 +283,8 @@ pub(crate) const DEFAULT_LIBERTY: &str = "/usr/share/qflow/tech/osu018/osu018_st
 #[command(after_help = "Examples: foveate estimate --preset bare
           foveate estimate --compare --markdown
           foveate estimate --preset bare --place-and-route ecp5-85k,up5k
-          foveate estimate --preset bare --liberty")]
+          foveate estimate --preset bare --liberty
+          foveate estimate --preset bare --liberty --activity street.mp4 --clock 1")]
 pub(crate) struct EstimateArgs {
     #[command(flatten)]
     pub(crate) design: DesignArgs,
@@ -310,7 +311,7 @@ pub(crate) struct EstimateArgs {
     /// Map the design to the cells of a liberty file, plain or gzipped, and print its area on
     /// silicon, its longest path and its leakage. Without a file, the cells are those of
     /// Debian's package `qflow-tech-osu018`, of 0.18 um. Each further --liberty makes a further report
-    #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = DEFAULT_LIBERTY, conflicts_with_all = ["compare", "place_and_route", "clock"])]
+    #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = DEFAULT_LIBERTY, conflicts_with_all = ["compare", "place_and_route"])]
     pub(crate) liberty: Vec<PathBuf>,
     /// Liberty files of memory macros of the same voltage, for memories that are too large for
     /// flip-flops
@@ -320,11 +321,21 @@ pub(crate) struct EstimateArgs {
     /// `foveate cosim --rtl` simulates it
     #[arg(long, value_name = "FILE", requires = "liberty")]
     pub(crate) netlist: Option<PathBuf>,
+    /// Measure the energy, too: simulate the gates of one RPU or lane on the frames of this clip, and
+    /// add up the energies of the library over all changes. The design takes the size of the clip
+    #[arg(long, value_name = "CLIP", requires = "liberty")]
+    pub(crate) activity: Option<PathBuf>,
+    /// Take at most this many frames of the clip of --activity
+    #[arg(long, value_name = "N", default_value_t = 300, value_parser = at_least_one(), requires = "activity")]
+    pub(crate) max_frames: u32,
+    /// Frames per second for the power with --activity
+    #[arg(long, value_name = "N", default_value_t = 30, value_parser = at_least_one(), requires = "activity")]
+    pub(crate) fps: u32,
     /// Largest memory in bits that becomes flip-flops
     #[arg(long, value_name = "BITS", default_value_t = 4096, requires = "liberty")]
     pub(crate) memory_limit: u64,
-    /// Clock of the design in MHz, for frame rates; without it, the clock that is estimated from
-    /// the netlist is used
+    /// Clock of the design in MHz, for frame rates, and for the power of a clock that runs always;
+    /// without it, the clock that is estimated from the netlist is used
     #[arg(long, value_name = "MHZ", value_parser = at_least_one(), conflicts_with = "place_and_route")]
     pub(crate) clock: Option<u32>,
     /// Print JSON

@@ -7,6 +7,7 @@ use foveate_boards::BoardError;
 use foveate_cosim::CosimError;
 use foveate_design::ConfigError;
 use foveate_emit::EmitError;
+use foveate_energy::EnergyError;
 use foveate_estimate::{EstimateError, SiliconError};
 use foveate_explore::ExploreError;
 use foveate_footage::FootageError;
@@ -38,6 +39,8 @@ pub(crate) enum CliError {
     Estimate(#[from] EstimateError),
     #[error(transparent)]
     Silicon(#[from] SiliconError),
+    #[error(transparent)]
+    Energy(Box<EnergyError>),
     #[error(transparent)]
     Playback(#[from] PlaybackError),
     #[error(transparent)]
@@ -75,6 +78,12 @@ pub(crate) enum CliError {
     Failed(String),
 }
 
+impl From<EnergyError> for CliError {
+    fn from(error: EnergyError) -> Self {
+        Self::Energy(Box::new(error))
+    }
+}
+
 impl CliError {
     pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.to_owned();
@@ -95,6 +104,7 @@ impl CliError {
             Self::Cosim(error) => cosim_code(error),
             Self::Estimate(error) => estimate_code(error),
             Self::Silicon(error) => silicon_code(error),
+            Self::Energy(error) => energy_code(error),
             Self::Playback(error) => playback_code(error),
             Self::Simulator(error) => simulator_code(error),
             Self::Study(error) => study_code(error),
@@ -146,6 +156,17 @@ fn silicon_code(error: &SiliconError) -> u8 {
     match error {
         SiliconError::Tool(error) => tool_code(error),
         SiliconError::Netlist { .. } | SiliconError::Timing { .. } => TOOL_CODE,
+        _ => INPUT_CODE,
+    }
+}
+
+fn energy_code(error: &EnergyError) -> u8 {
+    match error {
+        EnergyError::Silicon(error) => silicon_code(error),
+        EnergyError::Playback(error) => playback_code(error),
+        EnergyError::Cosim(error) => cosim_code(error),
+        EnergyError::Mismatch { .. } => 1,
+        EnergyError::Netlist { .. } => TOOL_CODE,
         _ => INPUT_CODE,
     }
 }

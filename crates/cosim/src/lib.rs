@@ -73,7 +73,7 @@ pub use report::{CosimReport, StepSeconds};
 pub use shipped_bench::{RegionLosses, ShippedBench, VectorTally};
 pub use simulation::{DesignUnderTest, SimulationOutcome, SimulationRun, Simulator};
 pub use situations::{Occurrence, Occurrences};
-pub use stimulus::Stimulus;
+pub use stimulus::{Stimulus, UnitFrames};
 pub use summary::{CosimSummary, CosimVerdict, FORMAT_VERSION, UnreachedVerilog};
 pub use timed_run::{OutputAgreement, TimedRun};
 pub use vector_packer::VectorPacker;

@@ -119,6 +119,12 @@ impl Recording {
         starts.count() as u64
     }
 
+    /// Returns all stretches in order.
+    #[must_use]
+    pub fn spans(&self) -> &[RecordingSpan] {
+        &self.spans
+    }
+
     /// Returns the stretch to which a clock belongs.
     #[must_use]
     pub fn span(&self, clock: u64) -> Option<&RecordingSpan> {

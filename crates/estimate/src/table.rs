@@ -3,11 +3,15 @@
 
 /// A table whose first column is text and whose other columns are figures.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub(crate) struct ReportTable {
-    pub(crate) title: String,
-    pub(crate) header: Vec<String>,
-    pub(crate) rows: Vec<Vec<String>>,
-    pub(crate) note: Option<String>,
+pub struct ReportTable {
+    /// The title.
+    pub title: String,
+    /// The names of the columns.
+    pub header: Vec<String>,
+    /// The rows, with as many cells as the header.
+    pub rows: Vec<Vec<String>>,
+    /// The text below the rows.
+    pub note: Option<String>,
 }
 
 const COLUMN_GAP: usize = 2;
@@ -17,7 +21,7 @@ impl ReportTable {
     /// Returns the table as aligned columns. The first column is truncated where the table would be
     /// wider than `width`, unless too little of it would remain: a terminal that narrow has to
     /// break the lines.
-    pub(crate) fn text(&self, width: usize) -> String {
+    pub fn text(&self, width: usize) -> String {
         let mut columns = self.widths();
         let figures: usize = columns.iter().skip(1).map(|column| column + COLUMN_GAP).sum();
         let left = width.saturating_sub(figures);
@@ -37,7 +41,7 @@ impl ReportTable {
 
     /// Returns the table as text. Columns that do not fit are placed below the others, after a
     /// repeated first column.
-    pub(crate) fn stacked_text(&self, width: usize) -> String {
+    pub fn stacked_text(&self, width: usize) -> String {
         let widths = self.widths();
         let first = widths.first().copied().unwrap_or_default();
         let (mut parts, mut used) = (vec![Vec::new()], first);
@@ -68,7 +72,7 @@ impl ReportTable {
     }
 
     /// Returns the table as Markdown under its title in bold.
-    pub(crate) fn markdown(&self) -> String {
+    pub fn markdown(&self) -> String {
         let row = |cells: &[String]| {
             let cells = cells.iter().map(|cell| cell.trim_start().replace('|', "\\|"));
             format!("| {} |\n", cells.collect::<Vec<_>>().join(" | "))
@@ -95,7 +99,7 @@ impl ReportTable {
 }
 
 /// Makes the header of a table from the header of the first column and those of the figures.
-pub(crate) fn header(first: &str, columns: &[&str]) -> Vec<String> {
+pub fn header(first: &str, columns: &[&str]) -> Vec<String> {
     std::iter::once(&first).chain(columns).map(|&text| text.to_owned()).collect()
 }
 
@@ -120,7 +124,7 @@ fn truncated(cell: &str, width: usize) -> String {
 }
 
 /// Breaks a sentence into lines of at most `width` characters.
-pub(crate) fn wrap(sentence: &str, width: usize) -> String {
+pub fn wrap(sentence: &str, width: usize) -> String {
     let mut text = String::new();
     let mut column = 0;
     for word in sentence.split_whitespace() {

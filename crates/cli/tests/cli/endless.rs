@@ -28,6 +28,7 @@ const CALLS: &[(&str, &str, &str)] = &[
     ("cosim", "--rtl", "cosim --rtl rtl"),
     ("cosim", "[INPUT]...", "cosim --preset bare ENDLESS"),
     ("estimate", "--liberty", "estimate --preset bare --liberty ENDLESS"),
+    ("estimate", "--activity", "estimate --preset bare --liberty cells.lib --activity ENDLESS"),
     ("estimate", "--macros", "estimate --preset bare --liberty cells.lib --macros ENDLESS"),
     ("simulate", "<INPUT>...", "simulate ENDLESS -o out"),
     (

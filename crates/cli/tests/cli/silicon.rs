@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `foveate estimate --liberty`: area, timing and leakage in the cells of Debian's library, and the
-//! errors for libraries that cannot be used.
+//! `foveate estimate --liberty`: area, timing, leakage and energy in the cells of Debian's library, and
+//! the errors for libraries that cannot be used.
 
 use std::fs::{self, File};
 use std::io::Write as _;
@@ -272,6 +272,90 @@ fn a_compressed_library_gives_the_same_report() {
         &[&SMALL[..], &["--liberty", LIBRARY, "--liberty", "cells.lib.gz"]].concat(),
     );
     assert_eq!(twice, Value::Array(vec![plain.clone(), plain]));
+}
+
+#[test]
+fn the_energy_follows_from_the_activity_of_a_clip() {
+    if !is_ready() {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    // Frames 2 to 5 are all different and frames 10 to 13 are all equal.
+    fs::create_dir(dir.path().join("clip")).unwrap();
+    for frame in 0..16_u32 {
+        let pixel = |place: u32| match frame {
+            0..8 => (place * 7919 + frame.wrapping_mul(0x9E37_79B9) / 97).to_le_bytes()[0],
+            _ => place.to_le_bytes()[0] % 8 * 16,
+        };
+        let pixels: Vec<u8> = (0..96).map(pixel).collect();
+        let image = [b"P5 8 12 255\n", pixels.as_slice()].concat();
+        fs::write(dir.path().join(format!("clip/{frame:02}.pgm")), image).unwrap();
+    }
+    for organization in ["pipelined", "serial"] {
+        let hardware = format!("hardware.organization='{organization}'");
+        let args = |more: &[&'static str]| {
+            [&SMALL[..], &["--set", &hardware, "--liberty"], more]
+                .concat()
+                .into_iter()
+                .map(str::to_owned)
+                .collect::<Vec<_>>()
+        };
+        let run = |more: &[&'static str]| {
+            let args = args(more);
+            report(dir.path(), &args.iter().map(String::as_str).collect::<Vec<_>>())
+        };
+        let found = run(&["--activity", "clip", "--clock", "5"]);
+        let [quiet, busiest] = [0, 2].map(|at| found["energy"]["stretches"][at].clone());
+        let parts = |stretch: &Value, pointer: &str| -> f64 {
+            let parts = ["clock", "memory", "flip_flops", "logic"];
+            parts.iter().map(|part| number(stretch, &format!("/{pointer}/{part}"))).sum()
+        };
+        let pj = "unit_pj_per_clock";
+        assert!(parts(&quiet, pj) < parts(&busiest, pj), "{organization}: {quiet} {busiest}");
+        assert_eq!(number(&quiet, "/sent_share"), 0.0);
+        let shown = number(&busiest, "/clocks_per_frame") * parts(&busiest, pj);
+        let region = parts(&busiest, "region_nj_per_frame") * 1000.0;
+        // The logic that lanes share is in the energy of a region and not in that of a lane.
+        let range = if organization == "pipelined" { 0.999..1.001 } else { 1.0..3.0 };
+        assert!(range.contains(&(region / shown)), "{organization}: {region} {shown}");
+        let power = |stretch: &Value, name: &str| number(stretch, &format!("/{name}"));
+        assert!(power(&quiet, "stopped_clock_mw") < power(&quiet, "running_clock_mw"));
+        let fast = run(&["--activity", "clip", "--clock", "5", "--fps", "60"]);
+        let leakage = number(&found, "/energy/leakage_mw");
+        let of = |found: &Value| number(found, "/energy/stretches/0/stopped_clock_mw") - leakage;
+        assert!((of(&fast) / of(&found) - 2.0).abs() < 1e-6);
+        let text = run_successfully(
+            dir.path(),
+            &[
+                &["estimate", "--quiet"],
+                &args(&["--activity", "clip"]).iter().map(String::as_str).collect::<Vec<_>>()[..],
+            ]
+            .concat(),
+        );
+        assert!(
+            text.contains("Energy on 16 frames of clip") && text.contains("pJ/clock"),
+            "{text}"
+        );
+        assert!(text.lines().all(|line| line.len() <= 80), "{text}");
+    }
+    for (args, words) in [
+        (
+            &["--preset", "raster", "--activity", "clip"][..],
+            "organization `raster` is not measured",
+        ),
+        (
+            &["--activity", "clip", "--max-frames", "3"],
+            "has 3 frames, and an activity needs at least 4",
+        ),
+        (&["--activity", "nowhere.mp4"], "nowhere.mp4"),
+        (
+            &["--set", "region.size=4", "--memory-limit", "10", "--activity", "clip"],
+            "give --memory-limit",
+        ),
+    ] {
+        let command = [&["estimate", "--quiet", "--liberty"], args].concat();
+        expect_failure(dir.path(), 2, &command, &[words]);
+    }
 }
 
 #[test]

@@ -35,6 +35,7 @@ mod sink;
 mod stimulus_pattern;
 mod threshold_aimer;
 mod threshold_ranges;
+mod unit_frames;
 mod unused_inputs;
 
 use crate::error::CosimError;
@@ -53,12 +54,13 @@ pub(crate) use pattern_scorer::PatternScores;
 pub(crate) use port_zones::ClassChoice;
 pub(crate) use random::Random;
 pub(crate) use sequence_end::SequenceEnd;
-use session::{SequenceLimits, StimulusSession};
+use session::{SequenceLimits, StimulusPace, StimulusPlan, StimulusSession};
 pub(crate) use sink::SinkPattern;
 use std::sync::atomic::AtomicBool;
 pub(crate) use stimulus_pattern::{PatternGenerator, StimulusPattern, Texture};
 pub(crate) use threshold_aimer::{ThresholdAim, ThresholdAimer};
 pub(crate) use threshold_ranges::ThresholdRanges;
+pub use unit_frames::UnitFrames;
 pub(crate) use unused_inputs::UnusedInputs;
 
 /// The largest number of regions of an array. Each is an RPU of the model, with buffers of its own.
@@ -148,7 +150,12 @@ impl Stimulus {
         if self.rounds > 0 {
             recorder.count_situations(&simulated, self.level.top());
         }
-        let plan = (self.seed, self.limits(&simulated), is_left_out);
+        let plan = StimulusPlan {
+            seed: self.seed,
+            limits: self.limits(&simulated),
+            is_left_out,
+            pace: StimulusPace::Varied,
+        };
         StimulusSession::new((design, &simulated), self.level, plan, &mut recorder, cancel)
             .run(&self.frames, progress)?;
         recorder.finish()

@@ -19,6 +19,28 @@ use foveate_design::{Design, PortRole};
 use foveate_frame::Frame;
 use std::sync::atomic::AtomicBool;
 
+/// The settings of a recording.
+#[derive(Clone, Copy)]
+pub(super) struct StimulusPlan {
+    pub(super) seed: u64,
+    pub(super) limits: SequenceLimits,
+    /// Returns true for the names of directed sequences that are not recorded.
+    pub(super) is_left_out: fn(&str) -> bool,
+    pub(super) pace: StimulusPace,
+}
+
+/// The pace of the caller's frames.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum StimulusPace {
+    /// With and without pauses, during which unused inputs have random values.
+    Varied,
+    /// Without pauses, and with fixed values at unused inputs.
+    Steady {
+        /// The largest number of parts of the frames; they are spread evenly.
+        max_parts: usize,
+    },
+}
+
 /// The number of directed sequences that are recorded.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SequenceLimits {
@@ -52,13 +74,14 @@ pub(super) struct StimulusSession<'a> {
     frame_generator: FrameGenerator,
     limits: SequenceLimits,
     is_left_out: fn(&str) -> bool,
+    pace: StimulusPace,
 }
 
 impl<'a> StimulusSession<'a> {
     pub(super) fn new(
         (whole, design): (&'a Design, &'a Design),
         level: CosimLevel,
-        (seed, limits, is_left_out): (u64, SequenceLimits, fn(&str) -> bool),
+        StimulusPlan { seed, limits, is_left_out, pace }: StimulusPlan,
         recorder: &'a mut Recorder,
         cancel: &'a AtomicBool,
     ) -> Self {
@@ -66,7 +89,10 @@ impl<'a> StimulusSession<'a> {
         let feed = FrameFeed::for_level(level, design);
         let has_border = recorder.has_port(PortRole::Border);
         let top = (design, level.top());
-        let unused = UnusedInputs::Random;
+        let unused = match pace {
+            StimulusPace::Varied => UnusedInputs::Random,
+            StimulusPace::Steady { .. } => UnusedInputs::Constant { refused_clocks: 0 },
+        };
         let driver = ModelDriver::new(top, feed, unused, recorder, random.fork(), cancel);
         let frame_generator = FrameGenerator::new(&feed, &mut random);
         Self {
@@ -79,6 +105,7 @@ impl<'a> StimulusSession<'a> {
             frame_generator,
             limits,
             is_left_out,
+            pace,
         }
     }
 
@@ -89,7 +116,10 @@ impl<'a> StimulusSession<'a> {
         frames: &[Frame],
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<(), CosimError> {
-        let parts = FramePart::all_of(self.whole, self.design, self.level, frames.len());
+        let mut parts = FramePart::all_of(self.whole, self.design, self.level, frames.len());
+        if let StimulusPace::Steady { max_parts } = self.pace {
+            parts = evenly_spread(parts, max_parts);
+        }
         let mut directed = sequences(self.design, self.driver.has_frame_sync());
         directed.retain(|sequence| !(self.is_left_out)(sequence.name));
         directed.truncate(self.limits.max_sequences);
@@ -179,7 +209,10 @@ impl<'a> StimulusSession<'a> {
         part: &FramePart,
         frames: &[Frame],
     ) -> Result<(), CosimError> {
-        let gaps = gaps_of_turn(number);
+        let gaps = match self.pace {
+            StimulusPace::Varied => gaps_of_turn(number),
+            StimulusPace::Steady { .. } => GapPattern::None,
+        };
         let sink = (false, self.sink_turn(number));
         self.name_clocks(&part.name, 0, part.region);
         self.driver.begin_sequence(SequenceSurroundings::of_design(sink, part.border))?;
@@ -248,6 +281,15 @@ impl<'a> StimulusSession<'a> {
         }
         self.driver.drain(last, gaps)
     }
+}
+
+/// Returns at most `count` of the parts, evenly spread.
+fn evenly_spread(parts: Vec<FramePart>, count: usize) -> Vec<FramePart> {
+    let (all, count) = (parts.len(), count.max(1));
+    let is_taken =
+        |number: usize| count >= all || number * count / all != (number + 1) * count / all;
+    let numbered = parts.into_iter().enumerate();
+    numbered.filter(|(number, _)| is_taken(*number)).map(|(_, part)| part).collect()
 }
 
 /// Returns the gaps of a sequence.

@@ -92,6 +92,22 @@ pub enum SiliconError {
         /// The name of the library.
         library: String,
     },
+    /// A cell cannot be simulated, or its energy is not known.
+    #[error("the cell `{cell}` of the library `{library}` cannot be simulated: {problem}")]
+    CellModel {
+        /// The cell.
+        cell: String,
+        /// The name of the library.
+        library: String,
+        /// The reason.
+        problem: String,
+    },
+    /// A library does not say for which voltage it is.
+    #[error("the library `{library}` has no nominal voltage, so no energy can be given")]
+    NoVoltage {
+        /// The name of the library.
+        library: String,
+    },
     /// A netlist for a simulator would lack the words of a memory.
     #[error(
         "a memory of {bits} bits is above the limit of {limit}, so the netlist would lack it; give --memory-limit {bits}"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The text of a liberty file as groups with attributes and groups inside.
 //!
-//! A file of a process has millions of numbers in tables of delays and energies, which OpenSTA reads.
-//! Here they are skipped: only attributes of the form `name : value` are kept.
+//! A file of a process has millions of numbers in tables of delays and energies. They are skipped
+//! unless they are asked for: [`parse_library`] keeps only attributes of the form `name : value`.
 
 use std::iter::Peekable;
 use std::str::CharIndices;
@@ -17,8 +17,12 @@ pub(super) struct LibertyGroup {
     pub(super) kind: String,
     /// The first argument, which is the name; empty without arguments.
     pub(super) name: String,
+    /// The other arguments.
+    pub(super) other_arguments: Vec<String>,
     /// The simple attributes in order.
     attributes: Vec<(String, String)>,
+    /// The attributes with arguments, such as `index_1 ("0.1, 0.2")`, if they are kept.
+    lists: Vec<(String, Vec<String>)>,
     pub(super) groups: Vec<LibertyGroup>,
 }
 
@@ -26,6 +30,11 @@ impl LibertyGroup {
     /// Returns the value of a simple attribute, without quotes; the last one if there are several.
     pub(super) fn attribute(&self, name: &str) -> Option<&str> {
         self.attributes.iter().rev().find(|(own, _)| own == name).map(|(_, value)| value.as_str())
+    }
+
+    /// Returns the arguments of an attribute; the last ones if there are several.
+    pub(super) fn list(&self, name: &str) -> Option<&[String]> {
+        self.lists.iter().rev().find(|(own, _)| own == name).map(|(_, list)| list.as_slice())
     }
 
     /// Returns the groups of a kind.
@@ -48,9 +57,18 @@ enum LibertyToken<'a> {
     Symbol(char),
 }
 
-/// Reads the one library of a file.
+/// Reads the one library of a file, without its tables.
 pub(super) fn parse_library(text: &str) -> Result<LibertyGroup, LibertyFault> {
-    let mut reader = LibertyReader { tokens: LibertyTokens::new(text), depth: 0 };
+    parse(text, false)
+}
+
+/// Reads the one library of a file with its tables.
+pub(super) fn parse_tables(text: &str) -> Result<LibertyGroup, LibertyFault> {
+    parse(text, true)
+}
+
+fn parse(text: &str, keeps_lists: bool) -> Result<LibertyGroup, LibertyFault> {
+    let mut reader = LibertyReader { tokens: LibertyTokens::new(text), depth: 0, keeps_lists };
     let mut top = LibertyGroup::default();
     reader.read_statements(&mut top, true)?;
     let line = reader.tokens.line;
@@ -66,6 +84,7 @@ pub(super) fn parse_library(text: &str) -> Result<LibertyGroup, LibertyFault> {
 struct LibertyReader<'a> {
     tokens: LibertyTokens<'a>,
     depth: usize,
+    keeps_lists: bool,
 }
 
 impl<'a> LibertyReader<'a> {
@@ -98,8 +117,11 @@ impl<'a> LibertyReader<'a> {
                 Ok(())
             }
             Some((LibertyToken::Symbol('('), _)) => {
-                let first = self.read_arguments()?;
+                let mut arguments = self.read_arguments()?.into_iter().map(str::to_owned);
                 if self.tokens.peek()? != Some(LibertyToken::Symbol('{')) {
+                    if self.keeps_lists {
+                        group.lists.push((name.to_owned(), arguments.collect()));
+                    }
                     return Ok(());
                 }
                 self.tokens.next()?;
@@ -109,8 +131,12 @@ impl<'a> LibertyReader<'a> {
                         "there are more than {MAX_DEPTH} groups inside each other"
                     )));
                 }
-                let mut inner =
-                    LibertyGroup { kind: name.to_owned(), name: first, ..LibertyGroup::default() };
+                let mut inner = LibertyGroup {
+                    kind: name.to_owned(),
+                    name: arguments.next().unwrap_or_default(),
+                    other_arguments: arguments.collect(),
+                    ..LibertyGroup::default()
+                };
                 self.read_statements(&mut inner, false)?;
                 self.depth -= 1;
                 group.groups.push(inner);
@@ -139,15 +165,13 @@ impl<'a> LibertyReader<'a> {
         }
     }
 
-    /// Reads arguments up to `)`, and returns the first.
-    fn read_arguments(&mut self) -> Result<String, LibertyFault> {
-        let mut first = None;
+    /// Reads arguments up to `)`.
+    fn read_arguments(&mut self) -> Result<Vec<&'a str>, LibertyFault> {
+        let mut arguments = Vec::new();
         loop {
             match self.tokens.next()? {
-                Some((LibertyToken::Word(word), _)) => {
-                    first.get_or_insert_with(|| word.to_owned());
-                }
-                Some((LibertyToken::Symbol(')'), _)) => return Ok(first.unwrap_or_default()),
+                Some((LibertyToken::Word(word), _)) => arguments.push(word),
+                Some((LibertyToken::Symbol(')'), _)) => return Ok(arguments),
                 Some((LibertyToken::Symbol(',' | ':'), _)) => {}
                 Some((LibertyToken::Symbol(symbol), _)) => {
                     return Err(self.fault(format!("`{symbol}` stands among arguments")));
@@ -302,6 +326,25 @@ mod tests {
         let output = cells[0].groups_of("pin").nth(1).unwrap();
         assert_eq!(output.attribute("function"), Some("!(A B)"));
         assert_eq!(output.groups_of("timing").count(), 1);
+        assert_eq!(library.list("capacitive_load_unit"), None);
+    }
+
+    #[test]
+    fn tables_are_kept_on_request() {
+        let library = parse_tables(SMALL).unwrap();
+        assert_eq!(library.list("capacitive_load_unit").unwrap(), ["1", "pf"]);
+        let template = library.groups_of("lu_table_template").next().unwrap();
+        assert_eq!(template.list("index_1").unwrap(), ["0.1, 0.2"]);
+        let cell = library.groups_of("cell").next().unwrap();
+        let timing = cell.groups_of("pin").nth(1).unwrap().groups_of("timing").next().unwrap();
+        let table = timing.groups_of("cell_rise").next().unwrap();
+        assert_eq!(table.list("values").unwrap(), ["1, 2", "3, 4"]);
+        let library = parse_tables("library (a) { cell (b) { ff (IQ, IQN) { } } }").unwrap();
+        let state = &library.groups[0].groups[0];
+        assert_eq!(
+            (state.name.as_str(), &state.other_arguments[..]),
+            ("IQ", &["IQN".to_owned()][..])
+        );
     }
 
     #[test]

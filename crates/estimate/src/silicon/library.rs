@@ -97,6 +97,11 @@ impl LibertyLibrary {
         })
     }
 
+    /// Returns the text of the file.
+    pub(super) fn text(&self) -> &str {
+        &self.text
+    }
+
     /// Returns the file of the library, [`CELLS`], for a tool.
     pub(super) fn source(&self) -> Source {
         (CELLS.to_owned(), self.text.clone())

@@ -1,11 +1,52 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The function of an output pin of a liberty library, as a table of truth values.
+//! The functions of pins of a liberty library.
 //!
 //! The operators are `!` before and `'` behind an operand, `^` for exclusive or, `&`, `*` and a space for
 //! and, `|` and `+` for or. Each of them binds stronger than those that stand behind it in this list.
 
-/// The largest number of inputs of a function that is evaluated.
+/// The largest number of inputs of a function of which a table is made.
 const MAX_INPUTS: usize = 4;
+/// The largest number of parts inside each other.
+const MAX_DEPTH: usize = 64;
+
+/// A logic function of numbered inputs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum LogicFunction {
+    /// A fixed value.
+    Constant(bool),
+    /// The input of this number.
+    Input(usize),
+    /// The inverse of a function.
+    Not(Box<Self>),
+    /// True if all functions are.
+    And(Vec<Self>),
+    /// True if any function is.
+    Or(Vec<Self>),
+    /// True if an odd number of functions is.
+    Xor(Vec<Self>),
+}
+
+impl LogicFunction {
+    /// Reads a function; an input is numbered by its place in `inputs`. Returns `None` for a text that
+    /// is no function of these inputs.
+    pub(super) fn parse(function: &str, inputs: &[&str]) -> Option<Self> {
+        let mut parser = FunctionParser { text: function.trim(), inputs, depth: 0 };
+        let function = parser.or()?;
+        parser.text.is_empty().then_some(function)
+    }
+
+    /// Computes 64 values at once, one per bit. `input` returns those of an input.
+    pub fn evaluate(&self, input: &impl Fn(usize) -> u64) -> u64 {
+        match self {
+            Self::Constant(value) => u64::from(*value).wrapping_neg(),
+            Self::Input(number) => input(*number),
+            Self::Not(inner) => !inner.evaluate(input),
+            Self::And(parts) => parts.iter().fold(u64::MAX, |all, part| all & part.evaluate(input)),
+            Self::Or(parts) => parts.iter().fold(0, |any, part| any | part.evaluate(input)),
+            Self::Xor(parts) => parts.iter().fold(0, |odd, part| odd ^ part.evaluate(input)),
+        }
+    }
+}
 
 /// Returns the value of a function for every combination of its inputs; bit i of the number of a
 /// combination is the value of input i. Returns `None` for more than four inputs, and for a text
@@ -14,63 +55,64 @@ pub(super) fn truth_table(function: &str, inputs: &[&str]) -> Option<Vec<bool>> 
     if inputs.len() > MAX_INPUTS {
         return None;
     }
+    let function = LogicFunction::parse(function, inputs)?;
     let value = |combination: usize| {
-        let mut evaluation =
-            FunctionEvaluation { text: function.trim(), inputs, combination, depth: 0 };
-        let value = evaluation.or()?;
-        evaluation.text.is_empty().then_some(value)
+        function.evaluate(&|input| u64::from(combination >> input & 1 == 1)) & 1 == 1
     };
-    (0..1 << inputs.len()).map(value).collect()
+    Some((0..1 << inputs.len()).map(value).collect())
 }
 
-/// The evaluation of the rest of a text for one combination of inputs.
-struct FunctionEvaluation<'a> {
+/// The parser of the rest of a text.
+struct FunctionParser<'a> {
     text: &'a str,
     inputs: &'a [&'a str],
-    combination: usize,
     depth: usize,
 }
 
-impl FunctionEvaluation<'_> {
-    fn or(&mut self) -> Option<bool> {
-        let mut value = self.and()?;
+impl FunctionParser<'_> {
+    fn or(&mut self) -> Option<LogicFunction> {
+        let mut parts = vec![self.and()?];
         while self.takes(&['|', '+']) {
-            value |= self.and()?;
+            parts.push(self.and()?);
         }
-        Some(value)
+        Some(joined(parts, LogicFunction::Or))
     }
 
-    fn and(&mut self) -> Option<bool> {
-        let mut value = self.exclusive_or()?;
+    fn and(&mut self) -> Option<LogicFunction> {
+        let mut parts = vec![self.exclusive_or()?];
         // An operand behind an operand is the and of both.
         while self.takes(&['&', '*']) || self.text.starts_with(is_start) {
-            value &= self.exclusive_or()?;
+            parts.push(self.exclusive_or()?);
         }
-        Some(value)
+        Some(joined(parts, LogicFunction::And))
     }
 
-    fn exclusive_or(&mut self) -> Option<bool> {
-        let mut value = self.operand()?;
+    fn exclusive_or(&mut self) -> Option<LogicFunction> {
+        let mut parts = vec![self.operand()?];
         while self.takes(&['^']) {
-            value ^= self.operand()?;
+            parts.push(self.operand()?);
         }
-        Some(value)
+        Some(joined(parts, LogicFunction::Xor))
     }
 
-    fn operand(&mut self) -> Option<bool> {
+    fn operand(&mut self) -> Option<LogicFunction> {
         let mut value = if self.takes(&['!']) {
             self.depth += 1;
-            !self.bounded(Self::primary)?
+            LogicFunction::Not(Box::new(self.bounded(Self::primary)?))
         } else {
             self.primary()?
         };
+        let mut is_inverted = false;
         while self.takes(&['\'']) {
-            value = !value;
+            is_inverted = !is_inverted;
+        }
+        if is_inverted {
+            value = LogicFunction::Not(Box::new(value));
         }
         Some(value)
     }
 
-    fn primary(&mut self) -> Option<bool> {
+    fn primary(&mut self) -> Option<LogicFunction> {
         if self.text.starts_with('!') {
             return self.operand();
         }
@@ -84,18 +126,18 @@ impl FunctionEvaluation<'_> {
         let (name, rest) = self.text.split_at(end);
         self.text = rest.trim_start();
         match name {
-            "0" => Some(false),
-            "1" => Some(true),
+            "0" => Some(LogicFunction::Constant(false)),
+            "1" => Some(LogicFunction::Constant(true)),
             _ => {
                 let input = self.inputs.iter().position(|input| *input == name)?;
-                Some(self.combination >> input & 1 == 1)
+                Some(LogicFunction::Input(input))
             }
         }
     }
 
-    /// Evaluates a part, unless parts are nested too deeply.
-    fn bounded(&mut self, part: fn(&mut Self) -> Option<bool>) -> Option<bool> {
-        if self.depth > 64 {
+    /// Reads a part, unless parts are nested too deeply.
+    fn bounded(&mut self, part: fn(&mut Self) -> Option<LogicFunction>) -> Option<LogicFunction> {
+        if self.depth > MAX_DEPTH {
             return None;
         }
         let value = part(self);
@@ -110,6 +152,17 @@ impl FunctionEvaluation<'_> {
             self.text = rest.trim_start();
         }
         rest.is_some()
+    }
+}
+
+/// Returns the only part, or all parts joined.
+fn joined(
+    mut parts: Vec<LogicFunction>,
+    join: fn(Vec<LogicFunction>) -> LogicFunction,
+) -> LogicFunction {
+    match parts.len() {
+        1 => parts.remove(0),
+        _ => join(parts),
     }
 }
 
@@ -148,5 +201,7 @@ mod tests {
             assert_eq!(truth_table(text, &["A", "B"]), None, "{text}");
         }
         assert_eq!(truth_table("A", &["A", "B", "C", "D", "E"]), None);
+        assert_eq!(truth_table("A''", &["A"]), Some(vec![false, true]));
+        assert_eq!(truth_table("(A B)'''", &["A", "B"]), Some(vec![true, true, true, false]));
     }
 }

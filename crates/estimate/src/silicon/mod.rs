@@ -5,14 +5,17 @@
 //! the user's own: those of open processes, or of a foundry.
 
 mod array_timing;
+mod cell_model;
 mod cell_totals;
 mod error;
+mod flat_netlist;
 mod gate_netlist;
 mod job;
 mod leaves;
 mod liberty_text;
 mod library;
 mod logic_function;
+mod lookup_table;
 mod mapping;
 mod memory_plan;
 mod net_names;
@@ -21,12 +24,18 @@ mod report;
 mod timing;
 mod unit_instances;
 
+pub use cell_model::{
+    CellModel, CellModels, CellPin, FlipFlopState, InternalEnergy, OutputTransition,
+};
 pub use cell_totals::CellTotals;
 pub use error::SiliconError;
+pub use flat_netlist::{FlatNetlist, HIGH_NET, LOW_NET, NetlistGate, map_unit};
 pub use gate_netlist::gate_netlist;
 pub use job::{SiliconJob, map_to_silicon};
 pub use leaves::SiliconLeaf;
 pub use library::LibertyLibrary;
+pub use logic_function::LogicFunction;
+pub use lookup_table::LookupTable;
 pub use memory_plan::{MacroChoice, MemoryFigures};
 pub use render::{render_silicon_markdown, render_silicon_text};
 pub use report::{

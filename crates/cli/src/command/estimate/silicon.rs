@@ -1,22 +1,36 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `foveate estimate --liberty`: area, timing and leakage of a design in the cells of a process.
+//! `foveate estimate --liberty`: area, timing, leakage and energy of a design in the cells of a process.
 
 use std::path::Path;
 
+use foveate_energy::{
+    EnergyJob, EnergyReport, measure_energy, render_energy_markdown, render_energy_text,
+};
 use foveate_estimate::{
     LibertyLibrary, SiliconJob, SiliconReport, gate_netlist, map_to_silicon,
     render_silicon_markdown, render_silicon_text,
 };
+use foveate_footage::InputOptions;
 use foveate_staging::{check_file, write_file};
+use serde::Serialize;
 
 use super::synthesis::SynthesisTools;
 use crate::args::{DEFAULT_LIBERTY, EstimateArgs};
 use crate::error::CliError;
+use crate::interrupt;
 use crate::output;
 use crate::progress::Progress;
 
 pub(super) fn run(args: &EstimateArgs, flow: &SynthesisTools) -> Result<(), CliError> {
-    let design = args.design.design()?;
+    if args.clock.is_some() && args.activity.is_none() {
+        let message = "--clock with --liberty is for the power of --activity; the clock of a report on area is measured";
+        return Err(CliError::Usage(message.to_owned()));
+    }
+    let energy = args.activity.as_deref().map(|clip| open_clip(args, clip)).transpose()?;
+    let design = match &energy {
+        Some(energy) => energy.design().clone(),
+        None => args.design.design()?,
+    };
     let job = SiliconJob::for_design(&design, args.memory_limit);
     let libraries = args.liberty.iter().map(|path| read_library(path));
     let libraries: Vec<_> = libraries.collect::<Result<_, _>>()?;
@@ -42,21 +56,59 @@ pub(super) fn run(args: &EstimateArgs, flow: &SynthesisTools) -> Result<(), CliE
         let inputs = (library, macros.as_slice());
         let report = map_to_silicon(&flow.toolchain, &flow.cache, &job, inputs);
         progress.finish();
-        reports.push(report?);
+        let silicon = report?;
+        let energy = match &energy {
+            None => None,
+            Some(job) => {
+                progress.report_work("simulating gates");
+                let clock = args.clock.map_or(silicon.path.mhz, f64::from);
+                let inputs = (library, &silicon, clock);
+                let report = measure_energy(&flow.toolchain, &flow.cache, job, inputs);
+                progress.finish();
+                Some(report?)
+            }
+        };
+        reports.push(ProcessReport { silicon, energy });
     }
     print_reports(args, &reports)
 }
 
-fn print_reports(args: &EstimateArgs, reports: &[SiliconReport]) -> Result<(), CliError> {
+/// The report of a design in one process.
+#[derive(Serialize)]
+struct ProcessReport {
+    #[serde(flatten)]
+    silicon: SiliconReport,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    energy: Option<EnergyReport>,
+}
+
+fn open_clip(args: &EstimateArgs, clip: &Path) -> Result<EnergyJob, CliError> {
+    let options = InputOptions {
+        frames: Some(args.max_frames),
+        interrupt: interrupt::stop_request(),
+        ..InputOptions::default()
+    };
+    Ok(EnergyJob::open(clip, &args.design.config()?, &options, f64::from(args.fps))?)
+}
+
+fn print_reports(args: &EstimateArgs, reports: &[ProcessReport]) -> Result<(), CliError> {
     if args.json {
         return match reports {
             [report] => output::print_json(report),
             reports => output::print_json(&reports),
         };
     }
-    let render = |report| match args.markdown {
-        true => render_silicon_markdown(report),
-        false => render_silicon_text(report, output::text_width()),
+    let width = output::text_width();
+    let render = |ProcessReport { silicon, energy }: &ProcessReport| {
+        let text = match args.markdown {
+            true => render_silicon_markdown(silicon),
+            false => render_silicon_text(silicon, width),
+        };
+        let energy = energy.as_ref().map(|energy| match args.markdown {
+            true => render_energy_markdown(energy),
+            false => render_energy_text(energy, width),
+        });
+        energy.map_or(text.clone(), |energy| format!("{text}\n{energy}"))
     };
     output::print_text(&reports.iter().map(render).collect::<Vec<_>>().join("\n"))
 }

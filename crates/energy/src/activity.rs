@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The rises and falls of nets, and the conditions under which cells take energy.
+
+use foveate_estimate::CellPin;
+
+use crate::gate_simulation::GateSimulation;
+use crate::simulated_netlist::SimulatedNetlist;
+
+/// The activity of a netlist over a number of clocks. A pair of counts is of rises and falls.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct NetActivity {
+    /// The number of clocks of all simulations together.
+    pub(crate) clocks: f64,
+    /// The changes of each net.
+    pub(crate) nets: Vec<[f64; 2]>,
+    /// The changes that belong to each energy of each pin of each gate: of an input, those under the
+    /// condition of the energy; of an output, also with a change of the related input at the same clock.
+    pub(crate) energies: Vec<Vec<Vec<[f64; 2]>>>,
+}
+
+/// A counter of activity.
+pub(crate) struct ActivityCounter<'a> {
+    netlist: &'a SimulatedNetlist<'a>,
+    clocks: u64,
+    nets: Vec<[u64; 2]>,
+    /// The pins with energies.
+    pins: Vec<CountedPin<'a>>,
+    /// The numbers of the pins at each net; a pin of a clock is at all nets of its cell.
+    pins_of_net: Vec<Vec<usize>>,
+    /// The numbers of the pins of clocks.
+    clock_pins: Vec<usize>,
+    /// True if the conditions at clocks are those of the last clock.
+    knows_conditions: bool,
+}
+
+/// A pin with energies.
+struct CountedPin<'a> {
+    gate: usize,
+    pin: &'a CellPin,
+    is_clock: bool,
+    /// The changes that belong to each energy.
+    counts: Vec<[u64; 2]>,
+    /// For a clock, the simulations in which the condition of each energy is met.
+    met: Vec<u64>,
+}
+
+impl NetActivity {
+    /// Returns an activity of one clock in which every net changes equally often.
+    pub(crate) fn uniform(netlist: &SimulatedNetlist<'_>, changes_per_clock: f64) -> Self {
+        let half = changes_per_clock / 2.0;
+        let energies = netlist.gates.iter().map(|gate| {
+            let pins = gate.model.pins.iter().enumerate();
+            let pins = pins.map(|(at, pin)| {
+                let all = if gate.clock() == Some(at) { 1.0 } else { half };
+                // Without the values of the pins each condition is as likely as another.
+                #[allow(clippy::cast_precision_loss, reason = "a pin has few energies")]
+                let each = all / pin.energies.len().max(1) as f64;
+                vec![[each; 2]; pin.energies.len()]
+            });
+            pins.collect()
+        });
+        Self { clocks: 1.0, nets: vec![[half; 2]; netlist.nets], energies: energies.collect() }
+    }
+}
+
+impl<'a> ActivityCounter<'a> {
+    pub(crate) fn new(netlist: &'a SimulatedNetlist<'a>) -> Self {
+        let mut counter = Self {
+            netlist,
+            clocks: 0,
+            nets: vec![[0; 2]; netlist.nets],
+            pins: Vec::new(),
+            pins_of_net: vec![Vec::new(); netlist.nets],
+            clock_pins: Vec::new(),
+            knows_conditions: false,
+        };
+        for (number, gate) in netlist.gates.iter().enumerate() {
+            for (at, pin) in gate.model.pins.iter().enumerate() {
+                if pin.energies.is_empty() {
+                    continue;
+                }
+                let (place, is_clock) = (counter.pins.len(), gate.clock() == Some(at));
+                if is_clock {
+                    counter.clock_pins.push(place);
+                    gate.nets.iter().for_each(|&net| counter.pins_of_net[net].push(place));
+                } else {
+                    counter.pins_of_net[gate.nets[at]].push(place);
+                }
+                let energies = pin.energies.len();
+                let (counts, met) = (vec![[0; 2]; energies], vec![0; energies]);
+                counter.pins.push(CountedPin { gate: number, pin, is_clock, counts, met });
+            }
+        }
+        counter
+    }
+
+    /// Counts the changes from one clock to the next, in the simulations whose bit in `counted` is 1.
+    /// `before` are the values of the nets at the clock before. It is called at every clock, also if no
+    /// simulation is counted.
+    pub(crate) fn count(&mut self, simulation: &GateSimulation<'_>, before: &[u64], counted: u64) {
+        if counted == 0 {
+            self.knows_conditions = false;
+            return;
+        }
+        if !self.knows_conditions {
+            self.knows_conditions = true;
+            for &place in &self.clock_pins {
+                self.pins[place].find_conditions(simulation);
+            }
+        }
+        let after = simulation.values();
+        self.clocks += u64::from(counted.count_ones());
+        for (net, (&old, &new)) in before.iter().zip(after).enumerate() {
+            if old == new {
+                continue;
+            }
+            let changes = [new & !old & counted, old & !new & counted];
+            add(&mut self.nets[net], changes);
+            for &place in &self.pins_of_net[net] {
+                let pin = &mut self.pins[place];
+                match pin.is_clock {
+                    true => pin.find_conditions(simulation),
+                    false => pin.count(self.netlist, simulation, (before, changes)),
+                }
+            }
+        }
+        for &place in &self.clock_pins {
+            let CountedPin { counts, met, .. } = &mut self.pins[place];
+            counts.iter_mut().zip(met).for_each(|(count, met)| add(count, [*met & counted; 2]));
+        }
+    }
+
+    pub(crate) fn finish(self) -> NetActivity {
+        let pins = self.netlist.gates.iter().map(|gate| vec![Vec::new(); gate.model.pins.len()]);
+        let mut energies: Vec<Vec<Vec<[f64; 2]>>> = pins.collect();
+        for CountedPin { gate, pin, counts, .. } in self.pins {
+            let pins = &self.netlist.gates[gate].model.pins;
+            let at = pins.iter().position(|own| std::ptr::eq(own, pin)).expect("a pin of the cell");
+            energies[gate][at] = counts.into_iter().map(as_float).collect();
+        }
+        #[allow(clippy::cast_precision_loss, reason = "there are fewer than 2^53 clocks")]
+        let clocks = self.clocks as f64;
+        NetActivity { clocks, nets: self.nets.into_iter().map(as_float).collect(), energies }
+    }
+}
+
+impl CountedPin<'_> {
+    /// Counts rises and falls of the net by the energies to which they belong.
+    fn count(
+        &mut self,
+        netlist: &SimulatedNetlist<'_>,
+        simulation: &GateSimulation<'_>,
+        (before, [rises, falls]): (&[u64], [u64; 2]),
+    ) {
+        let gate = &netlist.gates[self.gate];
+        let after = simulation.values();
+        let mut met = 0;
+        for (energy, count) in self.pin.energies.iter().zip(&mut self.counts) {
+            let related = energy.related_pin.filter(|&related| gate.clock() != Some(related));
+            let related = match related.filter(|_| self.pin.is_output) {
+                Some(related) => before[gate.nets[related]] ^ after[gate.nets[related]],
+                None => u64::MAX,
+            };
+            let Some(when) = &energy.when else {
+                if self.pin.is_output {
+                    add(count, [rises & related, falls & related]);
+                }
+                continue;
+            };
+            let when = simulation.evaluate(self.gate, when) & related;
+            met |= when;
+            add(count, [rises & when, falls & when]);
+        }
+        // An energy of an input without a condition is for all values that no condition names.
+        if let (Some(default), false) = (self.default_energy(), self.pin.is_output) {
+            add(&mut self.counts[default], [rises & !met, falls & !met]);
+        }
+    }
+
+    /// Finds the simulations in which the condition of each energy is met.
+    fn find_conditions(&mut self, simulation: &GateSimulation<'_>) {
+        let mut any = 0;
+        for (energy, met) in self.pin.energies.iter().zip(&mut self.met) {
+            *met = energy.when.as_ref().map_or(0, |when| simulation.evaluate(self.gate, when));
+            any |= *met;
+        }
+        if let Some(default) = self.default_energy() {
+            self.met[default] = !any;
+        }
+    }
+
+    fn default_energy(&self) -> Option<usize> {
+        self.pin.energies.iter().position(|energy| energy.when.is_none())
+    }
+}
+
+fn add(count: &mut [u64; 2], changes: [u64; 2]) {
+    for (count, changes) in count.iter_mut().zip(changes) {
+        *count += u64::from(changes.count_ones());
+    }
+}
+
+#[allow(clippy::cast_precision_loss, reason = "there are fewer than 2^53 changes")]
+fn as_float(counts: [u64; 2]) -> [f64; 2] {
+    counts.map(|count| count as f64)
+}

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The errors of a measurement of energy.
+
+use foveate_cosim::CosimError;
+use foveate_design::ConfigError;
+use foveate_estimate::SiliconError;
+use foveate_playback::PlaybackError;
+use thiserror::Error;
+
+/// An error of a measurement of energy.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum EnergyError {
+    /// The design cannot be mapped, or the library lacks a table.
+    #[error(transparent)]
+    Silicon(#[from] SiliconError),
+    /// The frames cannot be read.
+    #[error(transparent)]
+    Playback(#[from] PlaybackError),
+    /// The model of the unit cannot take the frames.
+    #[error(transparent)]
+    Cosim(#[from] CosimError),
+    /// The input is a set of images and not a clip.
+    #[error(
+        "`{input}` is a set of images without order, which has no activity in time; give a video, a folder of \
+         frames or `scene:street`"
+    )]
+    NoClip {
+        /// The input.
+        input: String,
+    },
+    /// The input has several clips.
+    #[error("the energy is measured on one clip, and `{input}` are several; give one of them")]
+    SeveralClips {
+        /// The inputs.
+        input: String,
+    },
+    /// The design cannot take frames of the clip's size.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// The clip is too short.
+    #[error("the clip has {found} frames, and an activity needs at least {needed}")]
+    TooShort {
+        /// The number of its frames.
+        found: u64,
+        /// The number that is needed.
+        needed: u64,
+    },
+    /// The organization cannot be measured.
+    #[error(
+        "the energy of organization `raster` is not measured, because its memories are macros, whose accesses are \
+         not counted; choose `pipelined` or `serial`"
+    )]
+    Raster,
+    /// The netlist differs from the model.
+    #[error(
+        "the netlist differs from the model at clock {clock} of a region in port `{port}`, so no energy is given; \
+         `foveate cosim` with the netlist of --netlist shows more"
+    )]
+    Mismatch {
+        /// The clock, from the reset on.
+        clock: usize,
+        /// The port.
+        port: String,
+    },
+    /// The netlist has a loop of gates, or lacks a pin.
+    #[error("the netlist cannot be simulated: {reason}")]
+    Netlist {
+        /// The reason.
+        reason: String,
+    },
+}

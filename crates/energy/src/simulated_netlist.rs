@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A netlist whose gates are connected to the models of their cells, in an order of evaluation.
+
+use std::collections::BTreeMap;
+
+use foveate_estimate::{CellModel, CellModels, FlatNetlist, HIGH_NET, LOW_NET};
+
+use crate::error::EnergyError;
+
+/// A netlist for a simulation.
+#[derive(Debug)]
+pub(crate) struct SimulatedNetlist<'a> {
+    pub(crate) models: &'a CellModels,
+    pub(crate) gates: Vec<SimulatedGate<'a>>,
+    /// The number of nets. A pin that is not connected has a net of its own.
+    pub(crate) nets: usize,
+    /// The combinational gates, each behind those that drive its inputs.
+    pub(crate) order: Vec<usize>,
+    /// The flip-flops.
+    pub(crate) flip_flops: Vec<usize>,
+    /// The flip-flops that can be cleared or set without a clock.
+    pub(crate) forced_flip_flops: Vec<usize>,
+    /// The gates that read each net, but for clocks.
+    pub(crate) readers: Vec<Vec<usize>>,
+    pub(crate) inputs: &'a BTreeMap<String, Vec<usize>>,
+    pub(crate) outputs: &'a BTreeMap<String, Vec<usize>>,
+}
+
+/// A gate of a netlist.
+#[derive(Debug)]
+pub(crate) struct SimulatedGate<'a> {
+    pub(crate) model: &'a CellModel,
+    /// The net of each pin of the model.
+    pub(crate) nets: Vec<usize>,
+    pub(crate) is_in_unit: bool,
+    pub(crate) is_memory_bit: bool,
+}
+
+impl SimulatedGate<'_> {
+    /// Returns the pin of the clock of a flip-flop.
+    pub(crate) fn clock(&self) -> Option<usize> {
+        self.model.state.as_ref().map(|state| state.clock)
+    }
+
+    /// Returns the outputs with their nets.
+    pub(crate) fn outputs(&self) -> impl Iterator<Item = (usize, usize)> {
+        self.pins_of(true)
+    }
+
+    /// Returns the inputs with their nets.
+    pub(crate) fn inputs(&self) -> impl Iterator<Item = (usize, usize)> {
+        self.pins_of(false)
+    }
+
+    fn pins_of(&self, is_output: bool) -> impl Iterator<Item = (usize, usize)> {
+        let pins = self.model.pins.iter().zip(&self.nets).enumerate();
+        pins.filter(move |(_, (pin, _))| pin.is_output == is_output)
+            .map(|(at, (_, &net))| (at, net))
+    }
+}
+
+impl<'a> SimulatedNetlist<'a> {
+    /// Connects the gates.
+    ///
+    /// # Errors
+    /// Fails if an input is not connected, or if gates without a flip-flop between them form a loop.
+    pub(crate) fn new(
+        netlist: &'a FlatNetlist,
+        models: &'a CellModels,
+    ) -> Result<Self, EnergyError> {
+        let mut nets = netlist.nets;
+        let mut gates = Vec::with_capacity(netlist.gates.len());
+        for gate in &netlist.gates {
+            let model = &models.cells[&gate.cell];
+            let mut own = Vec::with_capacity(model.pins.len());
+            for pin in &model.pins {
+                own.push(match gate.pins.get(&pin.name) {
+                    Some(&net) => net,
+                    None if pin.is_output => {
+                        nets += 1;
+                        nets - 1
+                    }
+                    None => {
+                        let reason = format!(
+                            "the input `{}` of a cell `{}` has no net",
+                            pin.name, gate.cell
+                        );
+                        return Err(EnergyError::Netlist { reason });
+                    }
+                });
+            }
+            gates.push(SimulatedGate {
+                model,
+                nets: own,
+                is_in_unit: gate.is_in_unit,
+                is_memory_bit: gate.is_memory_bit,
+            });
+        }
+        let is_flip_flop = |gate: &usize| gates[*gate].model.state.is_some();
+        let (flip_flops, combinational): (Vec<_>, Vec<_>) =
+            (0..gates.len()).partition(is_flip_flop);
+        let order = evaluation_order(&gates, &combinational, nets)?;
+        let is_forced = |gate: &usize| {
+            let state = gates[*gate].model.state.as_ref();
+            state.is_some_and(|state| state.clear.is_some() || state.preset.is_some())
+        };
+        let forced_flip_flops = flip_flops.iter().copied().filter(is_forced).collect();
+        let mut readers = vec![Vec::new(); nets];
+        for (number, gate) in gates.iter().enumerate() {
+            for (_, net) in gate.inputs().filter(|(pin, _)| gate.clock() != Some(*pin)) {
+                readers[net].push(number);
+            }
+        }
+        let (inputs, outputs) = (&netlist.inputs, &netlist.outputs);
+        Ok(Self {
+            models,
+            gates,
+            nets,
+            order,
+            flip_flops,
+            forced_flip_flops,
+            readers,
+            inputs,
+            outputs,
+        })
+    }
+}
+
+/// Returns the combinational gates, each behind those that drive its inputs.
+fn evaluation_order(
+    gates: &[SimulatedGate<'_>],
+    combinational: &[usize],
+    nets: usize,
+) -> Result<Vec<usize>, EnergyError> {
+    let mut readers: Vec<Vec<usize>> = vec![Vec::new(); nets];
+    let mut drivers = vec![0_usize; gates.len()];
+    let mut is_driven = vec![false; nets];
+    for &gate in combinational {
+        for (_, net) in gates[gate].outputs() {
+            is_driven[net] = true;
+        }
+    }
+    for &gate in combinational {
+        for (_, net) in gates[gate].inputs().filter(|&(_, net)| is_driven[net]) {
+            readers[net].push(gate);
+            drivers[gate] += 1;
+        }
+    }
+    let mut order: Vec<usize> =
+        combinational.iter().copied().filter(|&gate| drivers[gate] == 0).collect();
+    let mut at = 0;
+    while let Some(&gate) = order.get(at) {
+        at += 1;
+        for (_, net) in gates[gate].outputs().filter(|&(_, net)| net != LOW_NET && net != HIGH_NET)
+        {
+            for &reader in &readers[net] {
+                drivers[reader] -= 1;
+                if drivers[reader] == 0 {
+                    order.push(reader);
+                }
+            }
+        }
+    }
+    match order.len() == combinational.len() {
+        true => Ok(order),
+        false => Err(EnergyError::Netlist {
+            reason: format!("{} gates form loops", combinational.len() - order.len()),
+        }),
+    }
+}
