@@ -147,7 +147,7 @@ mod tests {
         let input = flat.gates[0].pins["D"];
         let output = flat.outputs["q"][0];
         let values: Vec<u64> =
-            (0..40).map(|clock: u64| (clock / 3).wrapping_mul(0x9E37_79B9_7F4A_7C15)).collect();
+            (0..40).map(|clock: u64| (clock / 2).wrapping_mul(0x9E37_79B9_7F4A_7C15)).collect();
         for (clock, &value) in values.iter().enumerate() {
             simulation.set_net(input, value);
             simulation.settle();

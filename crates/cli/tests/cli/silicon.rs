@@ -320,8 +320,21 @@ fn the_energy_follows_from_the_activity_of_a_clip() {
         assert!(range.contains(&(region / shown)), "{organization}: {region} {shown}");
         let power = |stretch: &Value, name: &str| number(stretch, &format!("/{name}"));
         assert!(power(&quiet, "stopped_clock_mw") < power(&quiet, "running_clock_mw"));
-        let fast = run(&["--activity", "clip", "--clock", "5", "--fps", "60"]);
+        // All flip-flops are of one kind, so each takes the same energy from the clock, wherever it is.
+        let clocks = number(&quiet, "/clocks_per_frame");
+        let array_clock_pj = number(&quiet, "/region_nj_per_frame/clock") * 6.0 * 1000.0 / clocks;
+        let of_array = array_clock_pj / number(&found, "/array/flip_flops");
+        let of_unit =
+            number(&quiet, "/unit_pj_per_clock/clock") / number(&found, "/unit/cells/flip_flops");
+        assert!((of_array / of_unit - 1.0).abs() < 1e-6, "{organization}: {of_array} {of_unit}");
+        let frame_mw = parts(&quiet, "region_nj_per_frame") * 6.0 * 30.0 * 1e-6;
         let leakage = number(&found, "/energy/leakage_mw");
+        assert!((power(&quiet, "stopped_clock_mw") / (frame_mw + leakage) - 1.0).abs() < 1e-9);
+        let idle_mw = array_clock_pj * (5e6 - clocks * 30.0) * 1e-9;
+        assert!(
+            (power(&quiet, "running_clock_mw") / (frame_mw + leakage + idle_mw) - 1.0).abs() < 1e-9
+        );
+        let fast = run(&["--activity", "clip", "--clock", "5", "--fps", "60"]);
         let of = |found: &Value| number(found, "/energy/stretches/0/stopped_clock_mw") - leakage;
         assert!((of(&fast) / of(&found) - 2.0).abs() < 1e-6);
         let text = run_successfully(
