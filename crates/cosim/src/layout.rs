@@ -92,6 +92,16 @@ impl RecordLayout {
         self.fields.iter().filter(differs).map(lanes).sum()
     }
 
+    /// Returns the first port with a value that is compared and differs.
+    #[must_use]
+    pub fn first_difference(&self, expected: &[u8], got: &[u8]) -> Option<&RecordField> {
+        let differs = |field: &&RecordField| {
+            let unequal = |lane| field.get(expected, lane) != field.get(got, lane);
+            self.compared_lanes(field, expected).any(unequal)
+        };
+        self.fields.iter().find(differs)
+    }
+
     /// Returns the lanes of a port that are compared, by the valid bits of the expected record.
     pub(crate) fn compared_lanes<'a>(
         &'a self,

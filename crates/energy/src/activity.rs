@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The rises and falls of nets, and the conditions under which cells take energy.
 
-use foveate_estimate::CellPin;
+use foveate_estimate::{CellPin, HIGH_NET, InternalEnergy, LOW_NET, LogicFunction};
 
 use crate::gate_simulation::GateSimulation;
 use crate::simulated_netlist::SimulatedNetlist;
@@ -13,8 +13,8 @@ pub(crate) struct NetActivity {
     pub(crate) clocks: f64,
     /// The changes of each net.
     pub(crate) nets: Vec<[f64; 2]>,
-    /// The changes that belong to each energy of each pin of each gate: of an input, those under the
-    /// condition of the energy; of an output, also with a change of the related input at the same clock.
+    /// For each energy of each pin of each gate, the number of changes of the pin under its condition. A
+    /// change of an output counts only if a related input changes at the same clock.
     pub(crate) energies: Vec<Vec<Vec<[f64; 2]>>>,
 }
 
@@ -47,19 +47,31 @@ struct CountedPin<'a> {
 impl NetActivity {
     /// Returns an activity of one clock in which every net changes equally often.
     pub(crate) fn uniform(netlist: &SimulatedNetlist<'_>, changes_per_clock: f64) -> Self {
-        let half = changes_per_clock / 2.0;
+        let is_constant = |net| net == LOW_NET || net == HIGH_NET;
+        let half = |net| if is_constant(net) { 0.0 } else { changes_per_clock / 2.0 };
         let energies = netlist.gates.iter().map(|gate| {
             let pins = gate.model.pins.iter().enumerate();
             let pins = pins.map(|(at, pin)| {
-                let all = if gate.clock() == Some(at) { 1.0 } else { half };
+                let changes = if gate.clock() == Some(at) { 1.0 } else { half(gate.nets[at]) };
+                let can_cause = |energy: &InternalEnergy| {
+                    let mut related = energy.related_pins.iter();
+                    energy.related_pins.is_empty()
+                        || related.any(|&pin| !is_constant(gate.nets[pin]))
+                };
                 // Without the values of the pins each condition is as likely as another.
+                let possible = pin.energies.iter().filter(|energy| can_cause(energy)).count();
                 #[allow(clippy::cast_precision_loss, reason = "a pin has few energies")]
-                let each = all / pin.energies.len().max(1) as f64;
-                vec![[each; 2]; pin.energies.len()]
+                let each = changes / possible.max(1) as f64;
+                let share = |energy| if can_cause(energy) { [each; 2] } else { [0.0; 2] };
+                pin.energies.iter().map(share).collect()
             });
             pins.collect()
         });
-        Self { clocks: 1.0, nets: vec![[half; 2]; netlist.nets], energies: energies.collect() }
+        Self {
+            clocks: 1.0,
+            nets: (0..netlist.nets).map(|net| [half(net); 2]).collect(),
+            energies: energies.collect(),
+        }
     }
 }
 
@@ -154,44 +166,47 @@ impl CountedPin<'_> {
     ) {
         let gate = &netlist.gates[self.gate];
         let after = simulation.values();
-        let mut met = 0;
-        for (energy, count) in self.pin.energies.iter().zip(&mut self.counts) {
-            let related = energy.related_pin.filter(|&related| gate.clock() != Some(related));
-            let related = match related.filter(|_| self.pin.is_output) {
-                Some(related) => before[gate.nets[related]] ^ after[gate.nets[related]],
-                None => u64::MAX,
+        let change = |&pin: &usize| match gate.clock() == Some(pin) {
+            true => u64::MAX,
+            false => before[gate.nets[pin]] ^ after[gate.nets[pin]],
+        };
+        let energies = &self.pin.energies;
+        for (at, (energy, count)) in energies.iter().zip(&mut self.counts).enumerate() {
+            let related = match self.pin.is_output && !energy.related_pins.is_empty() {
+                true => energy.related_pins.iter().map(change).fold(0, |any, change| any | change),
+                false => u64::MAX,
             };
-            let Some(when) = &energy.when else {
-                if self.pin.is_output {
-                    add(count, [rises & related, falls & related]);
+            let met = match &energy.when {
+                Some(when) => simulation.evaluate(self.gate, when),
+                None => {
+                    !conditions_beside(energies, at, |when| simulation.evaluate(self.gate, when))
                 }
-                continue;
             };
-            let when = simulation.evaluate(self.gate, when) & related;
-            met |= when;
-            add(count, [rises & when, falls & when]);
-        }
-        // An energy of an input without a condition is for all values that no condition names.
-        if let (Some(default), false) = (self.default_energy(), self.pin.is_output) {
-            add(&mut self.counts[default], [rises & !met, falls & !met]);
+            add(count, [rises & related & met, falls & related & met]);
         }
     }
 
     /// Finds the simulations in which the condition of each energy is met.
     fn find_conditions(&mut self, simulation: &GateSimulation<'_>) {
-        let mut any = 0;
-        for (energy, met) in self.pin.energies.iter().zip(&mut self.met) {
-            *met = energy.when.as_ref().map_or(0, |when| simulation.evaluate(self.gate, when));
-            any |= *met;
-        }
-        if let Some(default) = self.default_energy() {
-            self.met[default] = !any;
+        let energies = &self.pin.energies;
+        for (at, (energy, met)) in energies.iter().zip(&mut self.met).enumerate() {
+            let value = |when: &LogicFunction| simulation.evaluate(self.gate, when);
+            *met = match &energy.when {
+                Some(when) => value(when),
+                None => !conditions_beside(energies, at, value),
+            };
         }
     }
+}
 
-    fn default_energy(&self) -> Option<usize> {
-        self.pin.energies.iter().position(|energy| energy.when.is_none())
-    }
+/// Returns the simulations that meet any condition of the other energies of the same related pins.
+fn conditions_beside(
+    energies: &[InternalEnergy],
+    at: usize,
+    value: impl Fn(&LogicFunction) -> u64,
+) -> u64 {
+    let of_pins = energies.iter().filter(|own| own.related_pins == energies[at].related_pins);
+    of_pins.filter_map(|own| own.when.as_ref()).fold(0, |any, when| any | value(when))
 }
 
 fn add(count: &mut [u64; 2], changes: [u64; 2]) {

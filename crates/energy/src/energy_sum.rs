@@ -2,7 +2,7 @@
 //! The energy of an activity: the sum over all pins of the energies that the library gives for their
 //! changes, and of those that charge the inputs at each net.
 
-use foveate_estimate::InternalEnergy;
+use foveate_estimate::{CellPin, InternalEnergy};
 use serde::{Deserialize, Serialize};
 
 use crate::activity::NetActivity;
@@ -72,25 +72,25 @@ impl EnergySum {
             let clock = gate.clock();
             for (at, pin) in gate.model.pins.iter().enumerate() {
                 let net = gate.nets[at];
-                let (load, part) = match pin.is_output {
-                    true => (electrics.loads[net], own_part(parts, gate)),
-                    false if clock == Some(at) => (0.0, &mut parts.clock),
-                    false => (0.0, own_part(parts, gate)),
+                let is_clock = clock == Some(at);
+                let load = if pin.is_output { electrics.loads[net] } else { 0.0 };
+                let internal = match pin.is_output {
+                    true => {
+                        output_energy(pin, &energies[at], activity.nets[net], |energy, edge| {
+                            energy.of_edge(edge, input_slew(gate, energy, electrics), load)
+                        })
+                    }
+                    false => input_energy(pin, &energies[at], electrics.slews[net]),
                 };
-                let internal =
-                    pin_energy(&pin.energies, &energies[at], activity.nets[net], |own| {
-                        let from = own.related_pin.filter(|_| pin.is_output).unwrap_or(at);
-                        (electrics.slews[gate.nets[from]], load)
-                    });
-                // Each change of a net takes or loses half of the energy of its charge.
-                let changes = activity.nets[net].iter().sum::<f64>();
-                let switched = match pin.is_output {
-                    true => changes * load,
-                    // No gate drives the clock, so its charges are counted at the pins.
-                    false if clock == Some(at) => 2.0 * activity.clocks * pin.capacitance,
-                    false => 0.0,
+                // Each change of a net takes or loses half of the energy of the charge of its inputs.
+                // No gate drives the clock, which has two changes in a clock.
+                let changes = match (is_clock, netlist.is_driven[net]) {
+                    (true, _) => 2.0 * activity.clocks,
+                    (false, true) => activity.nets[net].iter().sum(),
+                    (false, false) => 0.0,
                 };
-                *part += unit_pj * (internal + 0.5 * switched * voltage * voltage);
+                let part = if is_clock { &mut parts.clock } else { own_part(parts, gate) };
+                *part += unit_pj * (internal + 0.5 * changes * pin.capacitance * voltage * voltage);
             }
         }
         sum
@@ -106,39 +106,47 @@ fn own_part<'a>(parts: &'a mut PartEnergies, gate: &SimulatedGate<'_>) -> &'a mu
     }
 }
 
-/// Returns the energy of all changes of a pin, in the unit of the library. `counts` are the changes that
-/// belong to each energy and `changes` all changes of the net. `place` returns the transition times and
-/// the load for an energy.
-fn pin_energy(
-    energies: &[InternalEnergy],
+/// Returns the energy of all changes of an input, in the unit of the library.
+fn input_energy(pin: &CellPin, counts: &[[f64; 2]], slews: [f64; 2]) -> f64 {
+    let of_edge = |(energy, count): (&InternalEnergy, &[f64; 2]), edge: usize| {
+        count[edge] * energy.of_edge(edge, slews[edge], 0.0)
+    };
+    let energies = pin.energies.iter().zip(counts);
+    energies.map(|own| of_edge(own, 0) + of_edge(own, 1)).sum()
+}
+
+/// Returns the energy of all changes of an output, in the unit of the library. `counts` are the changes
+/// that belong to each energy, and `changes` all changes of the net. `each` returns an energy for an edge.
+fn output_energy(
+    pin: &CellPin,
     counts: &[[f64; 2]],
     changes: [f64; 2],
-    place: impl Fn(&InternalEnergy) -> ([f64; 2], f64),
+    each: impl Fn(&InternalEnergy, usize) -> f64,
 ) -> f64 {
-    let is_of_output = energies.iter().any(|energy| energy.related_pin.is_some());
     let mut sum = 0.0;
-    for edge in 0..2 {
+    for (edge, changes) in changes.into_iter().enumerate() {
         let counted: f64 = counts.iter().map(|count| count[edge]).sum();
-        for (energy, count) in energies.iter().zip(counts) {
-            let (slews, load) = place(energy);
-            // A falling input may make an output rise, so the mean time stands for both.
-            let slew = if is_of_output { (slews[0] + slews[1]) / 2.0 } else { slews[edge] };
-            let table = energy.tables[edge].as_ref();
-            let each = table.map_or(0.0, |table| table.value(slew, load));
+        for (energy, count) in pin.energies.iter().zip(counts) {
             // Where several inputs change at once, each has a share of the change of the output.
-            let times = match is_of_output {
-                true if counted > 0.0 => changes[edge] * count[edge] / counted,
-                true => {
+            let times = match counted > 0.0 {
+                true => changes * count[edge] / counted,
+                false => {
                     #[allow(clippy::cast_precision_loss, reason = "a pin has few energies")]
-                    let number = energies.len() as f64;
-                    changes[edge] / number
+                    let energies = pin.energies.len() as f64;
+                    changes / energies
                 }
-                false => count[edge],
             };
-            sum += each * times;
+            sum += times * each(energy, edge);
         }
     }
     sum
+}
+
+/// Returns the transition time of the input that makes an output change. A fall of an input may make the
+/// output rise, so the mean of both edges stands for each.
+fn input_slew(gate: &SimulatedGate<'_>, energy: &InternalEnergy, electrics: &NetElectrics) -> f64 {
+    let input = energy.related_pins.first();
+    input.map_or(0.0, |&pin| electrics.slews[gate.nets[pin]].iter().sum::<f64>() / 2.0)
 }
 
 #[cfg(test)]
@@ -179,26 +187,31 @@ mod tests {
     #[test]
     fn the_sum_is_that_of_all_changes() {
         let netlist = flat_netlist(DIVIDER);
-        let sum = simulated(&netlist, &tiny_library(""), 4).unit;
+        let sum = simulated(&netlist, &tiny_library("", ""), 4).unit;
         let expected = PartEnergies {
             clock: 4.0 * (1.0 + 2.0) + 4.0 * 1.0 * 4.0,
             memory: 0.0,
-            flip_flops: 2.0 * (0.5 + 0.25) + 2.0 * (7.0 + 9.0) + 4.0 * 0.5 * 2.0 * 4.0,
-            logic: 2.0 * (3.0 + 5.0) + 4.0 * 0.5 * 4.0 * 4.0,
+            flip_flops: 2.0 * (0.5 + 0.25) + 2.0 * (7.0 + 9.0) + 4.0 * 0.5 * 4.0 * 4.0,
+            logic: 2.0 * (3.0 + 5.0) + 4.0 * 0.5 * 2.0 * 4.0,
         };
         assert_eq!(sum, expected);
-        let half = simulated(&netlist, &tiny_library(""), 2).unit;
+        let half = simulated(&netlist, &tiny_library("", ""), 2).unit;
         assert_eq!(half, expected.scaled(0.5));
     }
 
     #[test]
     fn an_energy_counts_only_under_its_condition() {
         // At half of the edges D is 1.
-        let library = tiny_library(
-            "internal_power () { when : \"D\"; rise_power (scalar) { values (\"10\"); } }",
-        );
-        let sum = simulated(&flat_netlist(DIVIDER), &library, 4).unit;
-        assert_eq!(sum.clock, 2.0 * 10.0 + 2.0 * (1.0 + 2.0) + 4.0 * 1.0 * 4.0);
+        let clock = "internal_power () { when : \"D\"; rise_power (scalar) { values (\"10\"); } }";
+        // The inverter falls while A is 1. Rises belong to the energy without a condition.
+        let output = "internal_power () { related_pin : \"A\"; when : \"A\"; fall_power (scalar) { values (\"100\"); } }";
+        let sum = simulated(&flat_netlist(DIVIDER), &tiny_library(clock, output), 4).unit;
+        let expected = PartEnergies {
+            clock: 2.0 * 10.0 + 2.0 * (1.0 + 2.0) + 4.0 * 1.0 * 4.0,
+            logic: 2.0 * (3.0 + 100.0) + 4.0 * 0.5 * 2.0 * 4.0,
+            ..sum
+        };
+        assert_eq!(sum, expected);
     }
 
     /// OpenSTA of 2019 takes the energies of a rise and of a fall for each change of a pin, which is

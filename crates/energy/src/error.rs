@@ -54,14 +54,21 @@ pub enum EnergyError {
     Raster,
     /// The netlist differs from the model.
     #[error(
-        "the netlist differs from the model at clock {clock} of a region in port `{port}`, so no energy is given; \
-         `foveate cosim` with the netlist of --netlist shows more"
+        "the netlist differs from the model in port `{port}`, from region {region} on, while frame {frame} of a \
+         stretch is taken: it has {found}, and the model has {expected}. So no energy is given; `foveate cosim` with \
+         the netlist of --netlist shows more"
     )]
     Mismatch {
-        /// The clock, from the reset on.
-        clock: usize,
+        /// The first region of the unit.
+        region: u32,
+        /// The frame of the simulated stretch, from 0.
+        frame: u64,
         /// The port.
         port: String,
+        /// The value of the model, in hexadecimal.
+        expected: String,
+        /// The value of the netlist, in hexadecimal.
+        found: String,
     },
     /// The netlist has a loop of gates, or lacks a pin.
     #[error("the netlist cannot be simulated: {reason}")]

@@ -13,7 +13,7 @@ pub(crate) struct GateSimulation<'a> {
     values: Vec<u64>,
     /// The state of each flip-flop, by gate.
     states: Vec<u64>,
-    /// True for each gate that must be computed again: a flip-flop at the next edge.
+    /// True for each gate whose inputs have changed. A flip-flop waits for the next edge.
     is_stale: Vec<bool>,
     /// The states after an edge; empty between edges.
     next_states: Vec<(usize, u64)>,
@@ -27,7 +27,13 @@ impl<'a> GateSimulation<'a> {
         let gates = netlist.gates.len();
         let (states, is_stale) = (vec![0; gates], vec![true; gates]);
         let mut simulation = Self { netlist, values, states, is_stale, next_states: Vec::new() };
-        netlist.flip_flops.iter().for_each(|&gate| simulation.compute_outputs(gate));
+        for &gate in &netlist.flip_flops {
+            // All changes come shortly after a rise of the clock.
+            if let Some(clock) = netlist.gates[gate].clock() {
+                simulation.values[netlist.gates[gate].nets[clock]] = u64::MAX;
+            }
+            simulation.compute_outputs(gate);
+        }
         simulation
     }
 
@@ -48,7 +54,8 @@ impl<'a> GateSimulation<'a> {
     /// Computes all nets from the inputs and states.
     pub(crate) fn settle(&mut self) {
         let netlist = self.netlist;
-        loop {
+        // Flip-flops that clear each other for ever would not settle.
+        for _ in 0..=netlist.forced_flip_flops.len() {
             for &gate in &netlist.order {
                 if self.is_stale[gate] {
                     self.is_stale[gate] = false;
@@ -59,7 +66,8 @@ impl<'a> GateSimulation<'a> {
             let mut has_changed = false;
             for &gate in &netlist.forced_flip_flops {
                 if self.is_stale[gate] {
-                    has_changed |= self.change_state(gate, self.states[gate]);
+                    let forced = self.forced_state(gate, self.states[gate]);
+                    has_changed |= self.change_state(gate, forced);
                 }
             }
             if !has_changed {
@@ -75,7 +83,8 @@ impl<'a> GateSimulation<'a> {
             if let Some(state) =
                 self.netlist.gates[gate].model.state.as_ref().filter(|_| self.is_stale[gate])
             {
-                next_states.push((gate, self.evaluate(gate, &state.next)));
+                let next = self.evaluate(gate, &state.next);
+                next_states.push((gate, self.forced_state(gate, next)));
             }
         }
         for &(gate, _) in &next_states {
@@ -98,15 +107,18 @@ impl<'a> GateSimulation<'a> {
         })
     }
 
-    /// Gives a flip-flop a state, unless it is cleared or set. Returns true if its state changes.
-    fn change_state(&mut self, gate: usize, state: u64) -> bool {
-        let model = self.netlist.gates[gate].model;
+    /// Returns a state of a flip-flop, or the one to which it is cleared or set.
+    fn forced_state(&self, gate: usize, state: u64) -> u64 {
+        let rules = self.netlist.gates[gate].model.state.as_ref();
         let condition =
             |rule: Option<&LogicFunction>| rule.map_or(0, |rule| self.evaluate(gate, rule));
-        let rules = model.state.as_ref();
         let clear = condition(rules.and_then(|rules| rules.clear.as_ref()));
         let preset = condition(rules.and_then(|rules| rules.preset.as_ref()));
-        let state = state & !clear | preset;
+        state & !clear | preset
+    }
+
+    /// Gives a flip-flop a state. Returns true if its state changes.
+    fn change_state(&mut self, gate: usize, state: u64) -> bool {
         let has_changed = self.states[gate] != state;
         if has_changed {
             self.states[gate] = state;
@@ -140,7 +152,7 @@ mod tests {
             INV g1 (.A(n2), .Y(n3));
             DFF f3 (.CLK(clk), .D(n3), .Q(q));",
         );
-        let library = tiny_library("");
+        let library = tiny_library("", "");
         let models = library.cell_models(["INV", "DFF"]).unwrap();
         let netlist = SimulatedNetlist::new(&flat, &models).unwrap();
         let mut simulation = GateSimulation::new(&netlist);
@@ -157,5 +169,35 @@ mod tests {
                 assert_eq!(simulation.values()[output], !values[clock - 2], "clock {clock}");
             }
         }
+    }
+
+    #[test]
+    fn a_cleared_flip_flop_is_0_at_once_and_stays_it() {
+        let flat = flat_netlist("DFFC f1 (.CLK(clk), .D(d), .R(r), .Q(q), .QN(n))");
+        let library = tiny_library("", "");
+        let models = library.cell_models(["DFFC"]).unwrap();
+        let netlist = SimulatedNetlist::new(&flat, &models).unwrap();
+        let mut simulation = GateSimulation::new(&netlist);
+        let pin = |name: &str| flat.gates[0].pins[name];
+        let outputs = |simulation: &GateSimulation<'_>| {
+            [pin("Q"), pin("QN")].map(|net| simulation.values()[net] & 0b11)
+        };
+        simulation.set_net(pin("D"), 0b11);
+        simulation.settle();
+        simulation.clock();
+        simulation.settle();
+        assert_eq!(outputs(&simulation), [0b11, 0]);
+        simulation.set_net(pin("R"), 0b01);
+        simulation.settle();
+        assert_eq!(outputs(&simulation), [0b10, 0b01]);
+        simulation.clock();
+        simulation.settle();
+        assert_eq!(outputs(&simulation), [0b10, 0b01]);
+        simulation.set_net(pin("R"), 0);
+        simulation.settle();
+        assert_eq!(outputs(&simulation), [0b10, 0b01]);
+        simulation.clock();
+        simulation.settle();
+        assert_eq!(outputs(&simulation), [0b11, 0]);
     }
 }

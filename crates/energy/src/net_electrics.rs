@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The loads and transition times of nets.
 
+use foveate_estimate::EdgeSense;
+
 use crate::simulated_netlist::SimulatedNetlist;
 
 /// The loads and transition times of nets, in the units of the library.
 pub(crate) struct NetElectrics {
     /// The sum of the capacitances of the inputs at a net.
     pub(crate) loads: Vec<f64>,
-    /// The times of a rise and of a fall, the longest of all ways to the net. Those of the ports of the
-    /// netlist and of the clock are 0, as OpenSTA takes them.
+    /// The times of a rise and of a fall, the longest of all ways to the net. Ports of the netlist and the
+    /// clock have a time of 0, as in OpenSTA.
     pub(crate) slews: Vec<[f64; 2]>,
 }
 
@@ -28,7 +30,11 @@ impl NetElectrics {
                 for transition in &gate.model.pins[pin].transitions {
                     let input = slews[gate.nets[transition.related_pin]];
                     for (edge, table) in transition.tables.iter().enumerate() {
-                        let from = input[if transition.is_inverting { 1 - edge } else { edge }];
+                        let from = match transition.sense {
+                            EdgeSense::Same => input[edge],
+                            EdgeSense::Opposite => input[1 - edge],
+                            EdgeSense::Any => input[0].max(input[1]),
+                        };
                         let slew =
                             table.as_ref().map_or(0.0, |table| table.value(from, loads[net]));
                         longest[edge] = longest[edge].max(slew);

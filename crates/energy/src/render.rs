@@ -90,6 +90,12 @@ fn sentences(report: &EnergyReport) -> Vec<String> {
         real_number(clocks_per_frame, 0),
         real_number(report.leakage_mw * 1000.0, 3),
     )];
+    if report.unmeasured_cells > 0 {
+        all.push(format!(
+            "The energy of {} cells that the RPUs share is in no figure.",
+            grouped(report.unmeasured_cells)
+        ));
+    }
     if report.stretches.iter().any(|stretch| stretch.running_clock_mw.is_none()) {
         all.push(format!(
             "A clock of {} MHz is too slow for {} frames/s.",

@@ -25,6 +25,8 @@ pub struct EnergyReport {
     pub simulated_units: u64,
     /// The number of regions.
     pub regions: u64,
+    /// The cells that RPUs share, whose energy is in no figure. The energy of cells that lanes share is.
+    pub unmeasured_cells: u64,
     /// The frames per second for which powers are given.
     pub frame_rate: f64,
     /// The clock in MHz of a design whose clock runs always.
@@ -46,7 +48,7 @@ pub struct StretchEnergy {
     pub frames: u64,
     /// The share of regions that are sent.
     pub sent_share: f64,
-    /// The mean number of clocks of a frame.
+    /// The number of clocks of a frame of the array.
     pub clocks_per_frame: f64,
     /// The energy of one unit in a clock, in picojoules.
     pub unit_pj_per_clock: PartEnergies,

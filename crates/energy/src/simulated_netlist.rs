@@ -22,6 +22,8 @@ pub(crate) struct SimulatedNetlist<'a> {
     pub(crate) forced_flip_flops: Vec<usize>,
     /// The gates that read each net, but for clocks.
     pub(crate) readers: Vec<Vec<usize>>,
+    /// True for each net that a gate drives.
+    pub(crate) is_driven: Vec<bool>,
     pub(crate) inputs: &'a BTreeMap<String, Vec<usize>>,
     pub(crate) outputs: &'a BTreeMap<String, Vec<usize>>,
 }
@@ -33,6 +35,7 @@ pub(crate) struct SimulatedGate<'a> {
     /// The net of each pin of the model.
     pub(crate) nets: Vec<usize>,
     pub(crate) is_in_unit: bool,
+    /// True if an output is a bit of a word of a memory.
     pub(crate) is_memory_bit: bool,
 }
 
@@ -89,11 +92,14 @@ impl<'a> SimulatedNetlist<'a> {
                     }
                 });
             }
+            let outputs = model.pins.iter().zip(&own).filter(|(pin, _)| pin.is_output);
+            let is_memory_bit =
+                outputs.into_iter().any(|(_, net)| netlist.memory_nets.contains(net));
             gates.push(SimulatedGate {
                 model,
                 nets: own,
                 is_in_unit: gate.is_in_unit,
-                is_memory_bit: gate.is_memory_bit,
+                is_memory_bit,
             });
         }
         let is_flip_flop = |gate: &usize| gates[*gate].model.state.is_some();
@@ -105,6 +111,8 @@ impl<'a> SimulatedNetlist<'a> {
             state.is_some_and(|state| state.clear.is_some() || state.preset.is_some())
         };
         let forced_flip_flops = flip_flops.iter().copied().filter(is_forced).collect();
+        let mut is_driven = vec![false; nets];
+        gates.iter().flat_map(SimulatedGate::outputs).for_each(|(_, net)| is_driven[net] = true);
         let mut readers = vec![Vec::new(); nets];
         for (number, gate) in gates.iter().enumerate() {
             for (_, net) in gate.inputs().filter(|(pin, _)| gate.clock() != Some(*pin)) {
@@ -120,6 +128,7 @@ impl<'a> SimulatedNetlist<'a> {
             flip_flops,
             forced_flip_flops,
             readers,
+            is_driven,
             inputs,
             outputs,
         })

@@ -14,8 +14,9 @@ use crate::error::EnergyError;
 
 /// The frames before a stretch, after which an RPU has a reference and no longer sends the first frame.
 pub(crate) const FRAMES_BEFORE: u64 = 2;
-/// The frames behind a stretch, during which the clocks of its last frame are complete.
-pub(crate) const FRAMES_BEHIND: u64 = 1;
+/// The frames behind a stretch. A lane works on a frame while it takes the next one, so the clocks of the
+/// last frame end with the first of them.
+pub(crate) const FRAMES_BEHIND: u64 = 2;
 
 /// A stretch of a clip.
 #[derive(Clone, Debug, PartialEq)]
@@ -131,15 +132,15 @@ mod tests {
         let stretches = choose_stretches(&sent, 10, 4).unwrap();
         let found: Vec<_> =
             stretches.iter().map(|own| (own.name, own.first, own.frames, own.sent_share)).collect();
-        assert_eq!(found, [("quiet", 6, 4, 0.0), ("usual", 3, 4, 0.375), ("busiest", 10, 4, 0.8)]);
-        assert_eq!(stretches[2].simulated(), 8..15);
+        assert_eq!(found, [("quiet", 6, 4, 0.0), ("usual", 3, 4, 0.375), ("busiest", 9, 4, 0.6)]);
+        assert_eq!(stretches[2].simulated(), 7..15);
     }
 
     #[test]
     fn a_short_clip_has_short_stretches() {
-        let stretches = choose_stretches(&[1, 1, 1, 1], 10, 4).unwrap();
+        let stretches = choose_stretches(&[1, 1, 1, 1, 1], 10, 4).unwrap();
         assert!(stretches.iter().all(|own| (own.first, own.frames) == (2, 1)));
-        let error = choose_stretches(&[1, 1, 1], 10, 4).unwrap_err().to_string();
-        assert!(error.contains("has 3 frames") && error.contains("at least 4"), "{error}");
+        let error = choose_stretches(&[1, 1, 1, 1], 10, 4).unwrap_err().to_string();
+        assert!(error.contains("has 4 frames") && error.contains("at least 5"), "{error}");
     }
 }

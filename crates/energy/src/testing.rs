@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Small netlists and libraries for tests.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use foveate_estimate::{FlatNetlist, LOW_NET, LibertyLibrary, NetlistGate};
@@ -33,7 +33,6 @@ pub(crate) fn flat_netlist(gates: &str) -> FlatNetlist {
             cell: cell.to_owned(),
             pins: pins.collect(),
             is_in_unit: true,
-            is_memory_bit: false,
         });
     }
     let port = |name: &str| (name.to_owned(), vec![nets.get(name).copied().unwrap_or(LOW_NET)]);
@@ -43,12 +42,14 @@ pub(crate) fn flat_netlist(gates: &str) -> FlatNetlist {
         gates: gate_list,
         inputs: [port("clk")].into(),
         outputs: [port("q")].into(),
+        memory_nets: BTreeSet::new(),
     }
 }
 
 /// Returns a library of an inverter and a flip-flop, in which no energy depends on times and loads.
-/// `at_clock` is added to the pin of the clock.
-pub(crate) fn tiny_library(at_clock: &str) -> LibertyLibrary {
+/// The texts are added to the pin of the clock and to the output of the inverter. `DFFC` is a flip-flop that
+/// R clears.
+pub(crate) fn tiny_library(at_clock: &str, at_output: &str) -> LibertyLibrary {
     let energy = |related: &str, rise: &str, fall: &str| {
         format!(
             "internal_power () {{ {related} rise_power (scalar) {{ values (\"{rise}\"); }} \
@@ -58,11 +59,14 @@ pub(crate) fn tiny_library(at_clock: &str) -> LibertyLibrary {
     let text = format!(
         "library (tiny) {{ nom_voltage : 2; capacitive_load_unit (1, pf);
         cell (INV) {{ pin (A) {{ direction : input; capacitance : 2; }}
-            pin (Y) {{ direction : output; function : \"!A\"; {} }} }}
+            pin (Y) {{ direction : output; function : \"!A\"; {at_output} {} }} }}
         cell (DFF) {{ ff (IQ, IQN) {{ clocked_on : \"CLK\"; next_state : \"D\"; }}
             pin (CLK) {{ direction : input; capacitance : 1; {at_clock} {} }}
             pin (D) {{ direction : input; capacitance : 4; {} }}
-            pin (Q) {{ direction : output; function : \"IQ\"; {} }} }} }}",
+            pin (Q) {{ direction : output; function : \"IQ\"; {} }} }}
+        cell (DFFC) {{ ff (IQ, IQN) {{ clocked_on : \"CLK\"; next_state : \"D\"; clear : \"R\"; }}
+            pin (CLK) {{ direction : input; }} pin (D) {{ direction : input; }} pin (R) {{ direction : input; }}
+            pin (Q) {{ direction : output; function : \"IQ\"; }} pin (QN) {{ direction : output; function : \"IQN\"; }} }} }}",
         energy("related_pin : \"A\";", "3", "5"),
         energy("", "1", "2"),
         energy("", "0.5", "0.25"),

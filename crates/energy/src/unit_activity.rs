@@ -179,12 +179,18 @@ impl RecordedUnit<'_> {
             }
             let start = (sequence.clocks.start + clock) * bytes;
             let expected = &self.outputs[start..start + bytes];
-            if layout.differing_values(expected, &got) > 0 {
-                let differs =
-                    |field: &&RecordField| field.bytes_in(expected) != field.bytes_in(&got);
-                let port =
-                    layout.fields().iter().find(differs).map(|field| field.port.name.clone());
-                return Err(EnergyError::Mismatch { clock, port: port.unwrap_or_default() });
+            if expected == got {
+                continue;
+            }
+            if let Some(field) = layout.first_difference(expected, &got) {
+                let span = self.recording.span((sequence.clocks.start + clock) as u64);
+                return Err(EnergyError::Mismatch {
+                    region: span.and_then(|span| span.region).unwrap_or_default(),
+                    frame: span.map_or(0, |span| span.frame),
+                    port: field.port.name.clone(),
+                    expected: field.hex(expected),
+                    found: field.hex(&got),
+                });
             }
         }
         Ok(())

@@ -51,7 +51,7 @@ pub use routing::{
     place_and_route, render_routes_markdown, render_routes_text,
 };
 pub use silicon::{
-    CellModel, CellModels, CellPin, CellTotals, FlatNetlist, FlipFlopState, HIGH_NET,
+    CellModel, CellModels, CellPin, CellTotals, EdgeSense, FlatNetlist, FlipFlopState, HIGH_NET,
     InternalEnergy, LOW_NET, LibertyLibrary, LibraryFigures, LogicFunction, LookupTable,
     MacroChoice, MemoryFigures, MemoryTotals, NOT_INCLUDED, NetlistGate, OutputTransition,
     SILICON_FORMAT_VERSION, SiliconError, SiliconJob, SiliconLeaf, SiliconPath, SiliconReport,

@@ -357,8 +357,8 @@ fn the_energy_follows_from_the_activity_of_a_clip() {
             "organization `raster` is not measured",
         ),
         (
-            &["--activity", "clip", "--max-frames", "3"],
-            "has 3 frames, and an activity needs at least 4",
+            &["--activity", "clip", "--max-frames", "4"],
+            "has 4 frames, and an activity needs at least 5",
         ),
         (&["--activity", "nowhere.mp4"], "nowhere.mp4"),
         (

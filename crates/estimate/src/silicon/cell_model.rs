@@ -52,12 +52,13 @@ pub struct CellPin {
 /// The energies of a change of a pin, under a condition.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InternalEnergy {
-    /// The input whose change makes an output change.
-    pub related_pin: Option<usize>,
-    /// The condition, a function of pins and state.
+    /// The inputs of which any makes an output change; empty for an input and for any cause.
+    pub related_pins: Vec<usize>,
+    /// The condition, a function of pins and state. Without one, the energy is for all values that no
+    /// condition of the same pins names.
     pub when: Option<LogicFunction>,
-    /// The energies of a rise and of a fall; `None` is none.
-    pub tables: [Option<LookupTable>; 2],
+    /// The tables of a rise and of a fall, whose values are added up.
+    pub tables: [Vec<LookupTable>; 2],
 }
 
 /// The transition times of an output after a change of an input.
@@ -65,10 +66,21 @@ pub struct InternalEnergy {
 pub struct OutputTransition {
     /// The input.
     pub related_pin: usize,
-    /// True if the output falls when the input rises.
-    pub is_inverting: bool,
+    /// The relation of the edges of both.
+    pub sense: EdgeSense,
     /// The times of a rise and of a fall.
     pub tables: [Option<LookupTable>; 2],
+}
+
+/// The relation of the edges of an input and an output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EdgeSense {
+    /// A rise makes a rise.
+    Same,
+    /// A rise makes a fall.
+    Opposite,
+    /// Either edge may make either.
+    Any,
 }
 
 /// The state of a flip-flop with a rising clock.
@@ -115,7 +127,9 @@ impl LibertyLibrary {
         }
         let no_voltage = || SiliconError::NoVoltage { library: self.name.clone() };
         let voltage = self.voltage.ok_or_else(no_voltage)?;
-        Ok(CellModels { cells, voltage, load_unit_pf: load_unit_pf(&library) })
+        let load_unit_pf = load_unit_pf(&library)
+            .map_err(|unit| SiliconError::LoadUnit { library: self.name.clone(), unit })?;
+        Ok(CellModels { cells, voltage, load_unit_pf })
     }
 }
 
@@ -124,22 +138,32 @@ impl CellModel {
         cell: &LibertyGroup,
         (library, templates): (&LibertyGroup, &TableTemplates),
     ) -> Result<Self, String> {
-        let groups: Vec<&LibertyGroup> = cell.groups_of("pin").collect();
+        if ["bus", "bundle"].iter().any(|kind| cell.groups_of(kind).next().is_some()) {
+            return Err("it has a bus or a bundle of pins".to_owned());
+        }
+        // A group may describe several pins.
+        let groups: Vec<(&str, &LibertyGroup)> = cell
+            .groups_of("pin")
+            .flat_map(|pin| {
+                let others = pin.other_arguments.iter().map(String::as_str);
+                std::iter::once(pin.name.as_str()).chain(others).map(move |name| (name, pin))
+            })
+            .collect();
         let state = cell.groups_of("ff").next();
         if state.is_none()
             && ["ff_bank", "latch", "latch_bank", "statetable", "memory"]
                 .iter()
                 .any(|kind| cell.groups_of(kind).next().is_some())
         {
-            return Err("it has a state, and is no flip-flop".to_owned());
+            return Err("it is neither a combinational cell nor a single flip-flop".to_owned());
         }
-        let mut names: Vec<&str> = groups.iter().map(|pin| pin.name.as_str()).collect();
+        let mut names: Vec<&str> = groups.iter().map(|(name, _)| *name).collect();
         let state_names = state.map(|state| {
             [state.name.as_str(), state.other_arguments.first().map_or("", String::as_str)]
         });
         names.extend(state_names.into_iter().flatten());
         let state = state.map(|state| FlipFlopState::from_group(state, &names)).transpose()?;
-        let pins = groups.iter().map(|pin| CellPin::from_group(pin, (library, templates), &names));
+        let pins = groups.iter().map(|pin| CellPin::from_group(*pin, (library, templates), &names));
         Ok(Self { pins: pins.collect::<Result<_, _>>()?, state })
     }
 }
@@ -168,23 +192,27 @@ impl FlipFlopState {
 
 impl CellPin {
     fn from_group(
-        pin: &LibertyGroup,
+        (name, pin): (&str, &LibertyGroup),
         (library, templates): (&LibertyGroup, &TableTemplates),
         names: &[&str],
     ) -> Result<Self, String> {
         let is_output = match pin.attribute("direction") {
             Some("input") => false,
             Some("output") => true,
-            _ => return Err(format!("its pin `{}` is neither an input nor an output", pin.name)),
+            _ => return Err(format!("its pin `{name}` is neither an input nor an output")),
         };
         let function = match (is_output, pin.attribute("function")) {
             (true, Some(text)) => {
                 let function = LogicFunction::parse(text, names);
                 Some(function.ok_or_else(|| format!("its function `{text}` cannot be read"))?)
             }
-            _ => None,
+            (true, None) => return Err(format!("its output `{name}` has no function")),
+            (false, _) => None,
         };
-        let number = |group: &LibertyGroup, name: &str| group.attribute(name)?.trim().parse().ok();
+        let number = |group: &LibertyGroup, name: &str| {
+            let number: f64 = group.attribute(name)?.trim().parse().ok()?;
+            Some(number).filter(|number| number.is_finite() && *number >= 0.0)
+        };
         let capacitance: Option<f64> = number(pin, "capacitance")
             .or_else(|| {
                 Some((number(pin, "rise_capacitance")? + number(pin, "fall_capacitance")?) / 2.0)
@@ -197,11 +225,11 @@ impl CellPin {
             .groups_of("timing")
             .filter_map(|group| OutputTransition::from_group(group, templates, names).transpose());
         Ok(Self {
-            name: pin.name.clone(),
+            name: name.to_owned(),
             is_output,
             capacitance: if is_output { 0.0 } else { capacitance.unwrap_or(0.0) },
             function,
-            energies: energies.collect::<Result<_, _>>()?,
+            energies: merged(energies.collect::<Result<_, _>>()?),
             transitions: transitions.collect::<Result<_, _>>()?,
         })
     }
@@ -221,16 +249,40 @@ impl InternalEnergy {
         let tables = match group.groups_of("power").next() {
             Some(both) => {
                 let table = table(both, templates)?;
-                [table.clone(), table]
+                [Some(table.clone()), Some(table)]
             }
             None => tables(group, ["rise_power", "fall_power"], templates)?,
         };
         Ok(Self {
-            related_pin: group.attribute("related_pin").and_then(|name| place(name, names)),
+            related_pins: related_pins(group, names)?,
             when: when.transpose()?,
-            tables,
+            tables: tables.map(|table| table.into_iter().collect()),
         })
     }
+
+    /// Returns the energy of a rise (0) or of a fall (1).
+    #[must_use]
+    pub fn of_edge(&self, edge: usize, slew: f64, load: f64) -> f64 {
+        self.tables[edge].iter().map(|table| table.value(slew, load)).sum()
+    }
+}
+
+/// Joins energies of the same inputs under the same condition: one for each edge, or for each supply.
+fn merged(energies: Vec<InternalEnergy>) -> Vec<InternalEnergy> {
+    let mut all: Vec<InternalEnergy> = Vec::new();
+    for energy in energies {
+        let is_same = |own: &&mut InternalEnergy| {
+            own.related_pins == energy.related_pins && own.when == energy.when
+        };
+        match all.iter_mut().find(is_same) {
+            None => all.push(energy),
+            Some(own) => {
+                let pairs = own.tables.iter_mut().zip(energy.tables);
+                pairs.for_each(|(own, more)| own.extend(more));
+            }
+        }
+    }
+    all
 }
 
 impl OutputTransition {
@@ -241,22 +293,29 @@ impl OutputTransition {
         templates: &TableTemplates,
         names: &[&str],
     ) -> Result<Option<Self>, String> {
-        let related_pin = group.attribute("related_pin").and_then(|name| place(name, names));
         let times = ["rise_transition", "fall_transition"];
-        let has_times = times.iter().any(|kind| group.groups_of(kind).next().is_some());
-        let Some(related_pin) = related_pin.filter(|_| has_times) else { return Ok(None) };
-        Ok(Some(Self {
-            related_pin,
-            is_inverting: group.attribute("timing_sense") == Some("negative_unate"),
-            tables: tables(group, times, templates)?,
-        }))
+        if times.iter().all(|kind| group.groups_of(kind).next().is_none()) {
+            return Ok(None);
+        }
+        let Some(&related_pin) = related_pins(group, names)?.first() else { return Ok(None) };
+        let sense = match group.attribute("timing_sense") {
+            Some("positive_unate") => EdgeSense::Same,
+            Some("negative_unate") => EdgeSense::Opposite,
+            _ => EdgeSense::Any,
+        };
+        Ok(Some(Self { related_pin, sense, tables: tables(group, times, templates)? }))
     }
 }
 
-/// Returns the place of a pin. A group may name several, of which the first stands for all.
-fn place(name: &str, names: &[&str]) -> Option<usize> {
-    let first = name.split_whitespace().next()?;
-    names.iter().position(|own| *own == first)
+/// Returns the pins to which a group is related.
+fn related_pins(group: &LibertyGroup, names: &[&str]) -> Result<Vec<usize>, String> {
+    let pin = |name: &str| {
+        let pin = names.iter().position(|own| *own == name);
+        pin.ok_or_else(|| {
+            format!("it has no pin `{name}`, to which an energy or a time is related")
+        })
+    };
+    group.attribute("related_pin").unwrap_or_default().split_whitespace().map(pin).collect()
 }
 
 fn tables(
@@ -265,24 +324,33 @@ fn tables(
     templates: &TableTemplates,
 ) -> Result<[Option<LookupTable>; 2], String> {
     let [rise, fall] = kinds
-        .map(|kind| group.groups_of(kind).next().map_or(Ok(None), |group| table(group, templates)));
+        .map(|kind| group.groups_of(kind).next().map(|group| table(group, templates)).transpose());
     Ok([rise?, fall?])
 }
 
-fn table(group: &LibertyGroup, templates: &TableTemplates) -> Result<Option<LookupTable>, String> {
-    match LookupTable::from_group(group, templates) {
-        Some(table) => Ok(Some(table)),
-        None => Err(format!("its table `{} ({})` cannot be read", group.kind, group.name)),
-    }
+fn table(group: &LibertyGroup, templates: &TableTemplates) -> Result<LookupTable, String> {
+    LookupTable::from_group(group, templates).ok_or_else(|| {
+        format!(
+            "its table `{} ({})` does not have one number for each point of a template of transition times and loads",
+            group.kind, group.name
+        )
+    })
 }
 
-/// Returns the unit of capacitances in picofarads, which is 1 if the library does not say.
-fn load_unit_pf(library: &LibertyGroup) -> f64 {
-    let unit = |list: &[String]| {
+/// Returns the unit of capacitances in picofarads, which is 1 if the library does not say, or the unit if
+/// it is not known.
+fn load_unit_pf(library: &LibertyGroup) -> Result<f64, String> {
+    let Some(list) = library.list("capacitive_load_unit") else { return Ok(1.0) };
+    let unit = || {
         let number: f64 = list.first()?.trim().parse().ok()?;
-        Some(number * if list.get(1)?.trim().eq_ignore_ascii_case("ff") { 1e-3 } else { 1.0 })
+        let factor = match list.get(1)?.trim().to_ascii_lowercase().as_str() {
+            "pf" => 1.0,
+            "ff" => 1e-3,
+            _ => return None,
+        };
+        Some(number * factor).filter(|unit| unit.is_finite() && *unit > 0.0)
     };
-    library.list("capacitive_load_unit").and_then(unit).unwrap_or(1.0)
+    unit().ok_or_else(|| list.join(", "))
 }
 
 #[cfg(test)]
@@ -309,6 +377,13 @@ mod tests {
         cell (LAT) { latch (IQ, IQN) { enable : "G"; } }
         cell (NEG) { ff (IQ, IQN) { clocked_on : "!CK"; next_state : "D"; } pin (CK) { direction : input; } pin (D) { direction : input; } }
         cell (BAD) { pin (A) { direction : input; internal_power () { rise_power (none) { values ("1, 2"); } } } }
+        cell (BUS) { bus (A) { direction : input; } }
+        cell (OUT) { pin (Y) { direction : output; } }
+        cell (REL) { pin (A) { direction : input; internal_power () { related_pin : "B"; } } }
+        cell (TWO) { pin (A, B) { direction : input; capacitance : 1; } pin (Y) { direction : output; function : "A B";
+            internal_power () { related_pin : "A B"; rise_power (t) { values ("1, 2"); } }
+            internal_power () { related_pin : "A B"; fall_power (t) { values ("3, 4"); } }
+            internal_power () { related_pin : "A B"; fall_power (t) { values ("5, 6"); } } } }
         cell (IO) { pin (A) { direction : inout; } }
     }"#;
 
@@ -324,20 +399,53 @@ mod tests {
         assert!(capacitances.iter().zip([0.1, 0.3, 0.5, 0.0]).all(|(a, b)| (a - b).abs() < 1e-12));
         assert_eq!(cell.pins[3].function, Some(LogicFunction::Input(4)));
         let [clock, output] = [0, 3].map(|pin: usize| &cell.pins[pin].energies[0]);
-        assert!(clock.when.is_some() && clock.tables[1].is_none());
-        assert_eq!(output.related_pin, Some(0));
-        assert_eq!(output.tables.clone().map(|table| table.unwrap().value(1.0, 0.0)), [4.0, 4.0]);
+        assert!(clock.when.is_some() && clock.tables[1].is_empty());
+        assert_eq!(output.related_pins, [0]);
+        assert_eq!([0, 1].map(|edge| output.of_edge(edge, 1.0, 0.0)), [4.0, 4.0]);
         let [transition] = &cell.pins[3].transitions[..] else { panic!("one arc has times") };
-        assert_eq!((transition.related_pin, transition.is_inverting), (0, false));
+        assert_eq!((transition.related_pin, transition.sense), (0, EdgeSense::Any));
+    }
+
+    #[test]
+    fn groups_of_several_pins_and_edges_are_joined() {
+        let models = library(CELLS).cell_models(["TWO"]).unwrap();
+        let pins = &models.cells["TWO"].pins;
+        assert_eq!(pins.iter().map(|pin| pin.name.as_str()).collect::<Vec<_>>(), ["A", "B", "Y"]);
+        let [energy] = &pins[2].energies[..] else { panic!("the three groups are one") };
+        assert_eq!(energy.related_pins, [0, 1]);
+        assert_eq!([0, 1].map(|edge| energy.of_edge(edge, 0.0, 0.0)), [1.0, 8.0]);
+    }
+
+    #[test]
+    fn a_library_needs_a_voltage_and_known_units() {
+        let cell = "cell (INV) { pin (A) { direction : input; } }";
+        let found =
+            |head: &str| library(&format!("library (a) {{ {head} {cell} }}")).cell_models(["INV"]);
+        assert_eq!(
+            found("nom_voltage : 1; capacitive_load_unit (10, FF);").unwrap().load_unit_pf,
+            0.01
+        );
+        for (head, words) in [
+            ("", "has no nominal voltage"),
+            ("nom_voltage : nan;", "has no nominal voltage"),
+            ("nom_voltage : 1; capacitive_load_unit (1, nf);", "`1, nf`"),
+            ("nom_voltage : 1; capacitive_load_unit (1ff);", "`1ff`"),
+        ] {
+            let message = found(head).unwrap_err().to_string();
+            assert!(message.contains(words), "{message}");
+        }
     }
 
     #[test]
     fn other_cells_are_refused_with_the_reason() {
         let library = library(CELLS);
         for (cell, words) in [
-            ("LAT", "no flip-flop"),
+            ("LAT", "nor a single flip-flop"),
             ("NEG", "not the rise of a pin"),
-            ("BAD", "`rise_power (none)` cannot be read"),
+            ("BAD", "`rise_power (none)` does not have one number"),
+            ("BUS", "a bus or a bundle"),
+            ("OUT", "its output `Y` has no function"),
+            ("REL", "it has no pin `B`"),
             ("IO", "neither an input nor an output"),
             ("NONE", "not there"),
         ] {

@@ -103,10 +103,22 @@ pub enum SiliconError {
         problem: String,
     },
     /// A library does not say for which voltage it is.
-    #[error("the library `{library}` has no nominal voltage, so no energy can be given")]
+    #[error(
+        "the library `{library}` has no nominal voltage, so no energy can be given; add `nom_voltage : VOLTS;` to it"
+    )]
     NoVoltage {
         /// The name of the library.
         library: String,
+    },
+    /// The unit of capacitances is not known.
+    #[error(
+        "the library `{library}` has capacitances in a unit of `{unit}`; `capacitive_load_unit` takes a number and `pf` or `ff`"
+    )]
+    LoadUnit {
+        /// The name of the library.
+        library: String,
+        /// The unit.
+        unit: String,
     },
     /// A netlist for a simulator would lack the words of a memory.
     #[error(

@@ -31,6 +31,8 @@ pub struct FlatNetlist {
     pub inputs: BTreeMap<String, Vec<usize>>,
     /// The nets of each output port, the lowest bit first.
     pub outputs: BTreeMap<String, Vec<usize>>,
+    /// The nets that are bits of the words of memories.
+    pub memory_nets: BTreeSet<usize>,
 }
 
 /// A cell of a netlist.
@@ -42,11 +44,9 @@ pub struct NetlistGate {
     pub pins: BTreeMap<String, usize>,
     /// True if the cell is in the unit, and false if it is in the logic that the units of an array share.
     pub is_in_unit: bool,
-    /// True if the cell is a bit of a word of a memory.
-    pub is_memory_bit: bool,
 }
 
-/// Maps one unit of a design. A unit that no array of its own is made of has the logic around it, too.
+/// Maps one unit of a design: an RPU by itself, or a lane with the logic that lanes share.
 ///
 /// # Errors
 /// Fails if Yosys is missing or fails, and if a memory has more than `limit` bits.
@@ -71,10 +71,16 @@ pub fn map_unit(
         .ok_or_else(|| SiliconError::Netlist { reason: format!("module `{top}` cannot be read") })
 }
 
-/// Returns the cells of a module and of all modules inside it. Those of the modules `units` are in units.
+/// Returns the cells of a module and of all modules inside it. A cell inside one of the modules `units` is
+/// in a unit.
 fn flatten(json: &Value, top: &str, units: &[String], tool: ToolRecord) -> Option<FlatNetlist> {
-    let mut flattening =
-        Flattening { json, units, merged: vec![LOW_NET, HIGH_NET], gates: Vec::new() };
+    let mut flattening = Flattening {
+        json,
+        units,
+        merged: vec![LOW_NET, HIGH_NET],
+        gates: Vec::new(),
+        memory_nets: BTreeSet::new(),
+    };
     let is_unit = units.iter().any(|unit| unit == top);
     let nets = flattening.add_module(top, BTreeMap::new(), is_unit)?;
     let (mut inputs, mut outputs) = (BTreeMap::new(), BTreeMap::new());
@@ -96,7 +102,8 @@ fn flatten(json: &Value, top: &str, units: &[String], tool: ToolRecord) -> Optio
     for net in gates.iter_mut().flat_map(|gate| gate.pins.values_mut()) {
         *net = roots[*net];
     }
-    Some(FlatNetlist { tool, nets, gates, inputs, outputs })
+    let memory_nets = flattening.memory_nets.iter().map(|&net| roots[net]).collect();
+    Some(FlatNetlist { tool, nets, gates, inputs, outputs, memory_nets })
 }
 
 /// The state of a flattening.
@@ -106,6 +113,7 @@ struct Flattening<'a> {
     /// For each net, itself or another net with which it is one.
     merged: Vec<usize>,
     gates: Vec<NetlistGate>,
+    memory_nets: BTreeSet<usize>,
 }
 
 impl Flattening<'_> {
@@ -128,7 +136,8 @@ impl Flattening<'_> {
                 self.merged.len() - 1
             });
         }
-        let memory_bits = memory_bits(module)?;
+        let of_memory = memory_bits(module)?.into_iter().filter_map(|id| nets.get(&id).copied());
+        self.memory_nets.extend(of_memory);
         for cell in cells.values() {
             let kind = cell["type"].as_str()?;
             let pins = cell["connections"].as_object()?;
@@ -137,13 +146,10 @@ impl Flattening<'_> {
                 self.add_instance(kind, pins, &nets, is_in_unit || is_unit)?;
                 continue;
             }
-            let is_memory_bit = pins
-                .values()
-                .any(|bits| bits[0].as_u64().is_some_and(|id| memory_bits.contains(&id)));
-            let pins =
-                pins.iter().map(|(pin, bits)| Some((pin.clone(), net_of_bit(&bits[0], &nets)?)));
+            let connected = pins.iter().filter_map(|(pin, bits)| Some((pin.clone(), bits.get(0)?)));
+            let pins = connected.map(|(pin, bit)| Some((pin, net_of_bit(bit, &nets)?)));
             let pins = pins.collect::<Option<_>>()?;
-            self.gates.push(NetlistGate { cell: kind.to_owned(), pins, is_in_unit, is_memory_bit });
+            self.gates.push(NetlistGate { cell: kind.to_owned(), pins, is_in_unit });
         }
         Some(nets)
     }
@@ -229,7 +235,7 @@ mod tests {
                 "ports": { "d_i": { "direction": "input", "bits": [4] }, "e_i": { "direction": "input", "bits": [5] },
                     "q_o": { "direction": "output", "bits": [6] }, "p_o": { "direction": "output", "bits": [4] },
                     "l_o": { "direction": "output", "bits": ["0"] } },
-                "cells": { "cell_1": { "type": "DFF", "connections": { "D": [4], "E": [5], "Q": [6] } } },
+                "cells": { "cell_1": { "type": "DFF", "connections": { "D": [4], "E": [5], "Q": [6], "QN": [] } } },
                 "netnames": { "u_store.words_q[3][0]": { "bits": [6] }, "count_q[0]": { "bits": [5] } } },
         } });
         let tool = ToolRecord { name: String::new(), version: String::new(), flags: String::new() };
@@ -243,11 +249,10 @@ mod tests {
             (pins(1)["D"], pins(1)["E"], pins(1)["Q"]),
             (a[0], HIGH_NET, flat.outputs["y_o"][0])
         );
-        let kinds: Vec<_> = flat
-            .gates
-            .iter()
-            .map(|gate| (gate.cell.as_str(), gate.is_in_unit, gate.is_memory_bit))
-            .collect();
-        assert_eq!(kinds, [("INV", false, false), ("DFF", true, true)]);
+        let kinds: Vec<_> =
+            flat.gates.iter().map(|gate| (gate.cell.as_str(), gate.is_in_unit)).collect();
+        assert_eq!(kinds, [("INV", false), ("DFF", true)]);
+        assert_eq!(flat.memory_nets, [flat.outputs["y_o"][0]].into());
+        assert!(!pins(1).contains_key("QN"), "a pin without a net is left out");
     }
 }

@@ -190,7 +190,9 @@ impl MemoryShape {
 
 /// Returns the voltage of the library, or that of its default operating conditions.
 fn nominal_voltage(library: &LibertyGroup) -> Option<f64> {
-    let number = |text: &str| text.trim().parse().ok();
+    let number = |text: &str| {
+        text.trim().parse().ok().filter(|volts: &f64| volts.is_finite() && *volts > 0.0)
+    };
     let of_conditions = || {
         let name = library.attribute("default_operating_conditions")?;
         let conditions = library.groups_of("operating_conditions").find(|own| own.name == name)?;

@@ -126,6 +126,7 @@ impl FunctionParser<'_> {
         let (name, rest) = self.text.split_at(end);
         self.text = rest.trim_start();
         match name {
+            "" => None,
             "0" => Some(LogicFunction::Constant(false)),
             "1" => Some(LogicFunction::Constant(true)),
             _ => {

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use super::liberty_text::LibertyGroup;
 
-/// The order of the two indexes of a table.
+/// The meaning of an index of a table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum TableAxis {
     Slew,
@@ -64,7 +64,7 @@ impl LookupTable {
             axis.map_or(vec![0.0], |(_, points)| points.clone())
         };
         let (slews, loads) = (points(TableAxis::Slew), points(TableAxis::Load));
-        let is_sorted = |points: &[f64]| points.is_sorted_by(|a, b| a < b);
+        let is_sorted = |points: &[f64]| !points.is_empty() && points.is_sorted_by(|a, b| a < b);
         if !is_sorted(&slews) || !is_sorted(&loads) || values.len() != slews.len() * loads.len() {
             return None;
         }
@@ -144,6 +144,8 @@ mod tests {
         rise_power (slew) { values ("7, x"); }
         rise_power (slew) { index_1 ("1, 1"); values ("7, 8"); }
         rise_power (slew) { }
+        rise_power (slew) { index_1 (""); values (""); }
+        rise_power (slew) { values (""); }
     }"#;
 
     #[test]

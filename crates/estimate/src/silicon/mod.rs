@@ -25,7 +25,7 @@ mod timing;
 mod unit_instances;
 
 pub use cell_model::{
-    CellModel, CellModels, CellPin, FlipFlopState, InternalEnergy, OutputTransition,
+    CellModel, CellModels, CellPin, EdgeSense, FlipFlopState, InternalEnergy, OutputTransition,
 };
 pub use cell_totals::CellTotals;
 pub use error::SiliconError;
