@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The rises and falls of nets, and the conditions under which cells take energy.
 
-use foveate_estimate::{CellPin, HIGH_NET, InternalEnergy, LOW_NET, LogicFunction};
+use foveate_estimate::{CellPin, HIGH_NET, InternalEnergy, LOW_NET, LogicFunction, count_to_f64};
 
 use crate::gate_simulation::GateSimulation;
 use crate::simulated_netlist::SimulatedNetlist;
@@ -36,6 +36,8 @@ pub(crate) struct ActivityCounter<'a> {
 /// A pin with energies.
 struct CountedPin<'a> {
     gate: usize,
+    /// The number of the pin in its cell.
+    at: usize,
     pin: &'a CellPin,
     is_clock: bool,
     /// The changes that belong to each energy.
@@ -60,8 +62,7 @@ impl NetActivity {
                 };
                 // Without the values of the pins each condition is as likely as another.
                 let possible = pin.energies.iter().filter(|energy| can_cause(energy)).count();
-                #[allow(clippy::cast_precision_loss, reason = "a pin has few energies")]
-                let each = changes / possible.max(1) as f64;
+                let each = changes / count_to_f64(possible.max(1) as u64);
                 let share = |energy| if can_cause(energy) { [each; 2] } else { [0.0; 2] };
                 pin.energies.iter().map(share).collect()
             });
@@ -100,7 +101,7 @@ impl<'a> ActivityCounter<'a> {
                 }
                 let energies = pin.energies.len();
                 let (counts, met) = (vec![[0; 2]; energies], vec![0; energies]);
-                counter.pins.push(CountedPin { gate: number, pin, is_clock, counts, met });
+                counter.pins.push(CountedPin { gate: number, at, pin, is_clock, counts, met });
             }
         }
         counter
@@ -145,14 +146,15 @@ impl<'a> ActivityCounter<'a> {
     pub(crate) fn finish(self) -> NetActivity {
         let pins = self.netlist.gates.iter().map(|gate| vec![Vec::new(); gate.model.pins.len()]);
         let mut energies: Vec<Vec<Vec<[f64; 2]>>> = pins.collect();
-        for CountedPin { gate, pin, counts, .. } in self.pins {
-            let pins = &self.netlist.gates[gate].model.pins;
-            let at = pins.iter().position(|own| std::ptr::eq(own, pin)).expect("a pin of the cell");
-            energies[gate][at] = counts.into_iter().map(as_float).collect();
+        for CountedPin { gate, at, counts, .. } in self.pins {
+            energies[gate][at] =
+                counts.into_iter().map(|counts| counts.map(count_to_f64)).collect();
         }
-        #[allow(clippy::cast_precision_loss, reason = "there are fewer than 2^53 clocks")]
-        let clocks = self.clocks as f64;
-        NetActivity { clocks, nets: self.nets.into_iter().map(as_float).collect(), energies }
+        NetActivity {
+            clocks: count_to_f64(self.clocks),
+            nets: self.nets.into_iter().map(|counts| counts.map(count_to_f64)).collect(),
+            energies,
+        }
     }
 }
 
@@ -170,52 +172,42 @@ impl CountedPin<'_> {
             true => u64::MAX,
             false => before[gate.nets[pin]] ^ after[gate.nets[pin]],
         };
-        let energies = &self.pin.energies;
-        for (at, (energy, count)) in energies.iter().zip(&mut self.counts).enumerate() {
+        let value = |when: &LogicFunction| simulation.evaluate(self.gate, when);
+        for (energy, count) in self.pin.energies.iter().zip(&mut self.counts) {
             let related = match self.pin.is_output && !energy.related_pins.is_empty() {
                 true => energy.related_pins.iter().map(change).fold(0, |any, change| any | change),
                 false => u64::MAX,
             };
-            let met = match &energy.when {
-                Some(when) => simulation.evaluate(self.gate, when),
-                None => {
-                    !conditions_beside(energies, at, |when| simulation.evaluate(self.gate, when))
-                }
-            };
+            let met = condition_of(energy, &self.pin.energies, value);
             add(count, [rises & related & met, falls & related & met]);
         }
     }
 
     /// Finds the simulations in which the condition of each energy is met.
     fn find_conditions(&mut self, simulation: &GateSimulation<'_>) {
-        let energies = &self.pin.energies;
-        for (at, (energy, met)) in energies.iter().zip(&mut self.met).enumerate() {
-            let value = |when: &LogicFunction| simulation.evaluate(self.gate, when);
-            *met = match &energy.when {
-                Some(when) => value(when),
-                None => !conditions_beside(energies, at, value),
-            };
+        let value = |when: &LogicFunction| simulation.evaluate(self.gate, when);
+        for (energy, met) in self.pin.energies.iter().zip(&mut self.met) {
+            *met = condition_of(energy, &self.pin.energies, value);
         }
     }
 }
 
-/// Returns the simulations that meet any condition of the other energies of the same related pins.
-fn conditions_beside(
-    energies: &[InternalEnergy],
-    at: usize,
+/// Returns the simulations that meet the condition of an energy. Without one, these are all that meet no
+/// condition of the other energies of the same related pins, which are in `all`.
+fn condition_of(
+    energy: &InternalEnergy,
+    all: &[InternalEnergy],
     value: impl Fn(&LogicFunction) -> u64,
 ) -> u64 {
-    let of_pins = energies.iter().filter(|own| own.related_pins == energies[at].related_pins);
-    of_pins.filter_map(|own| own.when.as_ref()).fold(0, |any, when| any | value(when))
+    if let Some(when) = &energy.when {
+        return value(when);
+    }
+    let of_pins = all.iter().filter(|own| own.related_pins == energy.related_pins);
+    !of_pins.filter_map(|own| own.when.as_ref()).fold(0, |any, when| any | value(when))
 }
 
 fn add(count: &mut [u64; 2], changes: [u64; 2]) {
     for (count, changes) in count.iter_mut().zip(changes) {
         *count += u64::from(changes.count_ones());
     }
-}
-
-#[allow(clippy::cast_precision_loss, reason = "there are fewer than 2^53 changes")]
-fn as_float(counts: [u64; 2]) -> [f64; 2] {
-    counts.map(|count| count as f64)
 }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Measures the energy of a design: maps a unit, simulates it on stretches of a clip, and adds up.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::path::Path;
+use std::sync::atomic::AtomicBool;
 
-use foveate_cosim::UnitFrames;
+use foveate_cosim::{Recording, UnitFrames};
 use foveate_design::{Design, DesignConfig, Organization, OrganizationConfig};
-use foveate_estimate::{LibertyLibrary, SiliconReport, map_unit};
+use foveate_estimate::{LibertyLibrary, SiliconReport, count_to_f64, map_unit};
 use foveate_footage::InputOptions;
 use foveate_frame::Frame;
 use foveate_toolchain::{Cache, Toolchain};
@@ -22,10 +23,6 @@ use crate::unit_activity::unit_activity;
 
 /// The largest number of units that are simulated.
 const MAX_UNITS: u64 = 1024;
-/// The number of units that are simulated even if they take many clocks.
-const MIN_UNITS: u64 = 4;
-/// The number of clocks of all units that are enough. The vectors of a clock take some ten bytes.
-const ENOUGH_CLOCKS: u64 = 1 << 22;
 /// The clocks of a frame up to which a stretch has four frames, and not one.
 const FAST_FRAME: u64 = 1 << 12;
 /// The changes of a net per clock that tools assume.
@@ -37,23 +34,24 @@ pub struct EnergyJob {
     name: String,
     /// The number of frames of the clip.
     frames: u64,
-    stretches: Vec<ClipStretch>,
-    /// The frames of the stretches and around them, by number.
-    shown: BTreeMap<u64, Frame>,
+    /// The stretches with the vectors of their units.
+    stretches: Vec<(ClipStretch, Recording)>,
     frame_rate: f64,
 }
 
 impl EnergyJob {
-    /// Plays the clip, finds its stretches, and reads their frames. The design takes the size of the clip.
-    /// Powers are for `frame_rate` frames per second.
+    /// Plays the clip, finds its stretches, and records what units take and what the model makes of it. The
+    /// design takes the size of the clip. Powers are for `frame_rate` frames per second.
     ///
     /// # Errors
-    /// Fails if the clip cannot be read twice, is too short or does not fit, and for organization `raster`.
+    /// Fails if the clip cannot be read twice, is too short or does not fit, for organization `raster`, if
+    /// there is no room for the vectors, or if `cancel` was set.
     pub fn open(
         input: &Path,
         config: &DesignConfig,
         options: &InputOptions,
         frame_rate: f64,
+        cancel: &AtomicBool,
     ) -> Result<Self, EnergyError> {
         if matches!(config.hardware.organization, OrganizationConfig::Raster(_)) {
             return Err(EnergyError::Raster);
@@ -61,8 +59,16 @@ impl EnergyJob {
         let clip = PlayedClip::open(input, config, options)?;
         let is_fast = clip.design.timing().clocks_per_frame() <= FAST_FRAME;
         let (frames, stretches) = clip.stretches(if is_fast { 4 } else { 1 })?;
-        let (shown, name) = (clip.frames(&stretches)?, input.display().to_string());
-        Ok(Self { design: clip.design, name, frames, stretches, shown, frame_rate })
+        let shown = clip.frames(&stretches)?;
+        let record = |stretch: ClipStretch| {
+            let frames = stretch.simulated().filter_map(|at| shown.get(&at).cloned());
+            let frames: Vec<Frame> = frames.collect();
+            let vectors = UnitFrames { frames: &frames, max_parts: MAX_UNITS };
+            Ok((stretch, vectors.record(&clip.design, cancel)?))
+        };
+        let stretches = stretches.into_iter().map(record).collect::<Result<_, EnergyError>>()?;
+        let name = input.display().to_string();
+        Ok(Self { design: clip.design, name, frames, stretches, frame_rate })
     }
 
     /// Returns the design in the size of the clip.
@@ -76,7 +82,7 @@ impl EnergyJob {
 /// of a design whose clock runs always.
 ///
 /// # Errors
-/// Fails if the clip has too few frames, if Yosys fails, if a table is missing in the library, or if the
+/// Fails if Yosys fails, if a table is missing in the library, or if the
 /// netlist differs from the model.
 pub fn measure_energy(
     toolchain: &Toolchain,
@@ -100,31 +106,16 @@ pub fn measure_energy(
         default: EnergySum::of_activity(&netlist, &electrics, &uniform),
     };
     let mut report = array.report(job);
-    for stretch in &job.stretches {
-        let frames = stretch.simulated().filter_map(|at| job.shown.get(&at).cloned());
-        let frames: Vec<Frame> = frames.collect();
-        let max_parts = affordable_units(design, frames.len() as u64);
-        let vectors = UnitFrames { frames: &frames, max_parts };
-        let recording = vectors.record(design, toolchain.cancel_flag())?;
+    for (stretch, recording) in &job.stretches {
         let first = FRAMES_BEFORE + delay_of_work(design);
         let counted = first..first + stretch.frames;
-        let activity = unit_activity(&netlist, &recording, &counted, toolchain.cancel_flag())?;
+        let activity = unit_activity(&netlist, recording, &counted, toolchain.cancel_flag())?;
         let sum = EnergySum::of_activity(&netlist, &electrics, &activity);
-        report.simulated_units = recording.sequences();
-        report.stretches.push(array.stretch(
-            stretch,
-            sum,
-            (activity.clocks, recording.sequences()),
-        ));
+        let units = recording.sequences();
+        report.simulated_units = units;
+        report.stretches.push(array.stretch(stretch, sum, (activity.clocks, units)));
     }
     Ok(report)
-}
-
-/// Returns the number of units whose simulation is affordable.
-fn affordable_units(design: &Design, frames: u64) -> usize {
-    let clocks = (design.timing().clocks_per_frame() * frames).max(1);
-    let units = (ENOUGH_CLOCKS / clocks).clamp(MIN_UNITS, MAX_UNITS);
-    usize::try_from(units).unwrap_or(usize::MAX)
 }
 
 /// Returns the number of frames that a unit is behind the frame that it takes. An RPU scores pixels as they
@@ -137,11 +128,10 @@ fn delay_of_work(design: &Design) -> u64 {
 }
 
 /// Returns the ratio of the flip-flops that the units of the array share to those of an array of one unit.
-#[allow(clippy::cast_precision_loss, reason = "there are fewer than 2^53 flip-flops")]
 fn shared_growth(netlist: &SimulatedNetlist<'_>, silicon: &SiliconReport) -> f64 {
     let is_shared = |gate: &&usize| !netlist.gates[**gate].is_in_unit;
     let own = netlist.flip_flops.iter().filter(is_shared).count().max(1);
-    silicon.shared.flip_flops as f64 / own as f64
+    count_to_f64(silicon.shared.flip_flops) / count_to_f64(own as u64)
 }
 
 /// The figures from which energies of an array follow.
@@ -174,9 +164,13 @@ impl ArrayEnergies<'_> {
             },
             frame_rate: self.frame_rate,
             clock_mhz: self.clock_mhz,
-            leakage_mw: self.silicon.leakage_nw * 1e-6,
+            leakage_mw: self.leakage_mw(),
             stretches: Vec::new(),
         }
+    }
+
+    fn leakage_mw(&self) -> f64 {
+        self.silicon.leakage_nw * 1e-6
     }
 
     /// Returns the energies of a stretch from the sum over `clocks` clocks of `units` units.
@@ -198,7 +192,7 @@ impl ArrayEnergies<'_> {
             .scaled(1.0 / frames_of_units)
             .plus(PartEnergies { clock: clock_pj * waiting_clocks, ..PartEnergies::default() });
         let clocks_per_frame = clocks / frames_of_units + waiting_clocks;
-        let leakage_mw = self.silicon.leakage_nw * 1e-6;
+        let leakage_mw = self.leakage_mw();
         let frames_mw = frame_pj.total() * self.frame_rate * 1e-9;
         let idle_clocks = self.clock_mhz * 1e6 - clocks_per_frame * self.frame_rate;
         StretchEnergy {
@@ -215,9 +209,4 @@ impl ArrayEnergies<'_> {
             default_activity_pj_per_clock: self.default.unit.total(),
         }
     }
-}
-
-#[allow(clippy::cast_precision_loss, reason = "there are fewer than 2^53 units and clocks")]
-fn count_to_f64(count: u64) -> f64 {
-    count as f64
 }

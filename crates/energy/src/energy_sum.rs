@@ -2,7 +2,7 @@
 //! The energy of an activity: the sum over all pins of the energies that the library gives for their
 //! changes, and of those that charge the inputs at each net.
 
-use foveate_estimate::{CellPin, InternalEnergy};
+use foveate_estimate::{CellPin, InternalEnergy, count_to_f64};
 use serde::{Deserialize, Serialize};
 
 use crate::activity::NetActivity;
@@ -130,11 +130,7 @@ fn output_energy(
             // Where several inputs change at once, each has a share of the change of the output.
             let times = match counted > 0.0 {
                 true => changes * count[edge] / counted,
-                false => {
-                    #[allow(clippy::cast_precision_loss, reason = "a pin has few energies")]
-                    let energies = pin.energies.len() as f64;
-                    changes / energies
-                }
+                false => changes / count_to_f64(pin.energies.len() as u64),
             };
             sum += times * each(energy, edge);
         }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The loads and transition times of nets.
 
-use foveate_estimate::EdgeSense;
+use foveate_estimate::TimingSense;
 
 use crate::simulated_netlist::SimulatedNetlist;
 
@@ -31,9 +31,9 @@ impl NetElectrics {
                     let input = slews[gate.nets[transition.related_pin]];
                     for (edge, table) in transition.tables.iter().enumerate() {
                         let from = match transition.sense {
-                            EdgeSense::Same => input[edge],
-                            EdgeSense::Opposite => input[1 - edge],
-                            EdgeSense::Any => input[0].max(input[1]),
+                            TimingSense::Same => input[edge],
+                            TimingSense::Opposite => input[1 - edge],
+                            TimingSense::Any => input[0].max(input[1]),
                         };
                         let slew =
                             table.as_ref().map_or(0.0, |table| table.value(from, loads[net]));

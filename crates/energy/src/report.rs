@@ -25,7 +25,8 @@ pub struct EnergyReport {
     pub simulated_units: u64,
     /// The number of regions.
     pub regions: u64,
-    /// The cells that RPUs share, whose energy is in no figure. The energy of cells that lanes share is.
+    /// The number of cells that RPUs share. Their energy is in no figure. It is 0 for lanes, because the
+    /// energy of the cells that they share is in all figures.
     pub unmeasured_cells: u64,
     /// The frames per second for which powers are given.
     pub frame_rate: f64,

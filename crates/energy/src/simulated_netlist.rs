@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use foveate_estimate::{CellModel, CellModels, FlatNetlist, HIGH_NET, LOW_NET};
+use foveate_estimate::{CellModel, CellModels, FlatNetlist};
 
 use crate::error::EnergyError;
 
@@ -102,15 +102,6 @@ impl<'a> SimulatedNetlist<'a> {
                 is_memory_bit,
             });
         }
-        let is_flip_flop = |gate: &usize| gates[*gate].model.state.is_some();
-        let (flip_flops, combinational): (Vec<_>, Vec<_>) =
-            (0..gates.len()).partition(is_flip_flop);
-        let order = evaluation_order(&gates, &combinational, nets)?;
-        let is_forced = |gate: &usize| {
-            let state = gates[*gate].model.state.as_ref();
-            state.is_some_and(|state| state.clear.is_some() || state.preset.is_some())
-        };
-        let forced_flip_flops = flip_flops.iter().copied().filter(is_forced).collect();
         let mut is_driven = vec![false; nets];
         gates.iter().flat_map(SimulatedGate::outputs).for_each(|(_, net)| is_driven[net] = true);
         let mut readers = vec![Vec::new(); nets];
@@ -119,6 +110,15 @@ impl<'a> SimulatedNetlist<'a> {
                 readers[net].push(number);
             }
         }
+        let is_flip_flop = |gate: &usize| gates[*gate].model.state.is_some();
+        let (flip_flops, combinational): (Vec<_>, Vec<_>) =
+            (0..gates.len()).partition(is_flip_flop);
+        let order = evaluation_order(&gates, &combinational, &readers)?;
+        let is_forced = |gate: &usize| {
+            let state = gates[*gate].model.state.as_ref();
+            state.is_some_and(|state| state.clear.is_some() || state.preset.is_some())
+        };
+        let forced_flip_flops = flip_flops.iter().copied().filter(is_forced).collect();
         let (inputs, outputs) = (&netlist.inputs, &netlist.outputs);
         Ok(Self {
             models,
@@ -135,38 +135,26 @@ impl<'a> SimulatedNetlist<'a> {
     }
 }
 
-/// Returns the combinational gates, each behind those that drive its inputs.
+/// Returns the combinational gates, each behind those that drive its inputs. `readers` are the gates that
+/// read each net.
 fn evaluation_order(
     gates: &[SimulatedGate<'_>],
     combinational: &[usize],
-    nets: usize,
+    readers: &[Vec<usize>],
 ) -> Result<Vec<usize>, EnergyError> {
-    let mut readers: Vec<Vec<usize>> = vec![Vec::new(); nets];
-    let mut drivers = vec![0_usize; gates.len()];
-    let mut is_driven = vec![false; nets];
-    for &gate in combinational {
-        for (_, net) in gates[gate].outputs() {
-            is_driven[net] = true;
-        }
-    }
-    for &gate in combinational {
-        for (_, net) in gates[gate].inputs().filter(|&(_, net)| is_driven[net]) {
-            readers[net].push(gate);
-            drivers[gate] += 1;
-        }
-    }
+    let driven = |gate: usize| gates[gate].outputs().flat_map(|(_, net)| &readers[net]).copied();
+    // The number of inputs that wait for a gate.
+    let mut waiting = vec![0_usize; gates.len()];
+    combinational.iter().flat_map(|&gate| driven(gate)).for_each(|reader| waiting[reader] += 1);
     let mut order: Vec<usize> =
-        combinational.iter().copied().filter(|&gate| drivers[gate] == 0).collect();
+        combinational.iter().copied().filter(|&gate| waiting[gate] == 0).collect();
     let mut at = 0;
     while let Some(&gate) = order.get(at) {
         at += 1;
-        for (_, net) in gates[gate].outputs().filter(|&(_, net)| net != LOW_NET && net != HIGH_NET)
-        {
-            for &reader in &readers[net] {
-                drivers[reader] -= 1;
-                if drivers[reader] == 0 {
-                    order.push(reader);
-                }
+        for reader in driven(gate) {
+            waiting[reader] -= 1;
+            if waiting[reader] == 0 && gates[reader].model.state.is_none() {
+                order.push(reader);
             }
         }
     }

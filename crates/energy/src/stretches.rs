@@ -6,6 +6,7 @@ use std::path::Path;
 
 use foveate_design::{Design, DesignConfig};
 use foveate_engine::Engine;
+use foveate_estimate::count_to_f64;
 use foveate_footage::{InputOptions, SourceKind};
 use foveate_frame::Frame;
 use foveate_playback::{ClipReading, PlaybackError, RunClips};
@@ -114,8 +115,7 @@ fn choose_stretches(
     let mut firsts: Vec<u64> = (FRAMES_BEFORE..=found - FRAMES_BEHIND - frames).collect();
     firsts.sort_by_key(|&first| (of_stretch(first), first));
     let stretch = |name, first| {
-        #[allow(clippy::cast_precision_loss, reason = "there are fewer than 2^53 regions")]
-        let sent_share = of_stretch(first) as f64 / (regions * frames) as f64;
+        let sent_share = count_to_f64(of_stretch(first)) / count_to_f64(regions * frames);
         ClipStretch { name, first, frames, sent_share }
     };
     let (quiet, usual, busiest) = (firsts[0], firsts[firsts.len() / 2], firsts[firsts.len() - 1]);

@@ -5,7 +5,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use foveate_estimate::{FlatNetlist, LOW_NET, LibertyLibrary, NetlistGate};
-use foveate_toolchain::ToolRecord;
 
 /// The library of Debian's package `qflow-tech-osu018`.
 pub(crate) const OSU018: &str = "/usr/share/qflow/tech/osu018/osu018_stdcells.lib";
@@ -37,7 +36,6 @@ pub(crate) fn flat_netlist(gates: &str) -> FlatNetlist {
     }
     let port = |name: &str| (name.to_owned(), vec![nets.get(name).copied().unwrap_or(LOW_NET)]);
     FlatNetlist {
-        tool: ToolRecord { name: String::new(), version: String::new(), flags: String::new() },
         nets: nets.len() + 2,
         gates: gate_list,
         inputs: [port("clk")].into(),

@@ -168,11 +168,12 @@ impl RecordedUnit<'_> {
     ) -> Result<(), EnergyError> {
         let layout = self.recording.outputs();
         let bytes = layout.record_bytes();
+        let mut got = vec![0; bytes];
         for (lane, sequence) in batch.iter().enumerate() {
             if clock >= sequence.clocks.len() {
                 continue;
             }
-            let mut got = vec![0; bytes];
+            got.fill(0);
             for bit in &self.output_bits {
                 let value = simulation.values()[bit.net] >> lane & 1;
                 got[bit.byte] |= u8::from(value == 1) << bit.shift;
@@ -212,6 +213,7 @@ mod tests {
     use foveate_cosim::{UnitFrames, random_frames};
     use foveate_design::DesignConfig;
     use foveate_estimate::{FlatNetlist, LibertyLibrary, map_unit};
+    use foveate_frame::Frame;
     use foveate_toolchain::testing::require_tools;
     use foveate_toolchain::{Cache, Tool, Toolchain};
 
@@ -232,6 +234,12 @@ mod tests {
         let frames = random_frames(&design, 1, 6).unwrap();
         let vectors = UnitFrames { frames: &frames, max_parts: 100 };
         let recording = vectors.record(&design, &AtomicBool::new(false)).unwrap();
+        let few = UnitFrames { max_parts: 3, ..vectors.clone() };
+        assert_eq!(few.record(&design, &AtomicBool::new(false)).unwrap().sequences(), 3);
+        let other = [Frame::new(4, 4, 4, vec![0; 16]).unwrap()];
+        let wrong = UnitFrames { frames: &other, max_parts: 3 };
+        let message = wrong.record(&design, &AtomicBool::new(false)).unwrap_err().to_string();
+        assert!(message.contains("4x4 pixels") && message.contains("8x8 pixels"), "{message}");
         let run = |flat: &FlatNetlist| {
             let cells: BTreeSet<&str> = flat.gates.iter().map(|gate| gate.cell.as_str()).collect();
             let models = library.cell_models(cells).unwrap();

@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::area::{Area, rounded_quotient};
-use crate::speed::clocks_as_float;
+use crate::speed::count_to_f64;
 
 /// The resources of a device.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -39,7 +39,7 @@ impl FpgaDevice {
     /// blocks, and a hundredth of its share of flip-flops, of which there are two for every LUT.
     #[must_use]
     pub fn cost(&self, area: &Area) -> f64 {
-        let share = |used: u64, of: u64| clocks_as_float(used) / clocks_as_float(of);
+        let share = |used: u64, of: u64| count_to_f64(used) / count_to_f64(of);
         share(area.lut_total_packed, self.lut)
             + share(area.bram18, self.bram18)
             + share(area.dsp, self.dsp)

@@ -12,7 +12,7 @@ use foveate_design::Design;
 
 use crate::FpgaDevice;
 use crate::area::Area;
-use crate::speed::{clocks_as_float, most_clocks_per_frame};
+use crate::speed::{count_to_f64, most_clocks_per_frame};
 
 /// The result of the synthesis of a fold.
 #[derive(Clone, Debug)]
@@ -35,7 +35,7 @@ pub fn cheapest_fold<E>(
     synthesize: impl Fn(&Design) -> Result<FoldCost, E>,
 ) -> Result<Design, E> {
     let device = FpgaDevice::xcvu9p();
-    let max_clocks = |mhz: f64| most_clocks_per_frame(mhz * 1e6, clocks_as_float(rate));
+    let max_clocks = |mhz: f64| most_clocks_per_frame(mhz * 1e6, count_to_f64(rate));
     let mut tried: BTreeMap<u32, Option<f64>> = BTreeMap::new();
     let mut fast: Vec<(f64, Design)> = Vec::new();
     // The clock of a folded array differs from that of fold 1. If the fold with the fewest lanes is
@@ -97,7 +97,7 @@ mod tests {
     /// Returns a clock in MHz slightly above that at which a fold reaches 500 frames per second.
     fn needed_clock(fold: u32) -> f64 {
         let clocks = single().with_fold(fold).unwrap().timing().clocks_per_frame();
-        clocks_as_float(clocks) * 500.0 / 1e6 + 1e-6
+        count_to_f64(clocks) * 500.0 / 1e6 + 1e-6
     }
 
     /// The array has 784 regions. 94 block RAMs of 4,320 are 2.18 % of the device, and 49 are 1.13

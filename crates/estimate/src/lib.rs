@@ -51,12 +51,12 @@ pub use routing::{
     place_and_route, render_routes_markdown, render_routes_text,
 };
 pub use silicon::{
-    CellModel, CellModels, CellPin, CellTotals, EdgeSense, FlatNetlist, FlipFlopState, HIGH_NET,
+    CellModel, CellModels, CellPin, CellTotals, FlatNetlist, FlipFlopState, HIGH_NET,
     InternalEnergy, LOW_NET, LibertyLibrary, LibraryFigures, LogicFunction, LookupTable,
     MacroChoice, MemoryFigures, MemoryTotals, NOT_INCLUDED, NetlistGate, OutputTransition,
     SILICON_FORMAT_VERSION, SiliconError, SiliconJob, SiliconLeaf, SiliconPath, SiliconReport,
-    UnitFigures, gate_netlist, map_to_silicon, map_unit, render_silicon_markdown,
+    TimingSense, UnitFigures, gate_netlist, map_to_silicon, map_unit, render_silicon_markdown,
     render_silicon_text,
 };
-pub use speed::{FrameRate, most_clocks_per_frame};
+pub use speed::{FrameRate, count_to_f64, most_clocks_per_frame};
 pub use table::{ReportTable, header, wrap};

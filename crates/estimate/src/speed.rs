@@ -40,7 +40,7 @@ impl FrameRate {
 
     fn from_clocks([low, clock, high]: [f64; 3], estimated: bool, clocks_per_frame: u64) -> Self {
         let [low_rate, rate, high_rate] =
-            [low, clock, high].map(|mhz| mhz * 1e6 / clocks_as_float(clocks_per_frame.max(1)));
+            [low, clock, high].map(|mhz| mhz * 1e6 / count_to_f64(clocks_per_frame.max(1)));
         Self {
             clock_mhz: clock,
             low_clock_mhz: low,
@@ -103,8 +103,10 @@ pub fn most_clocks_per_frame(hertz: f64, fps: f64) -> u64 {
     (hertz / fps.max(1e-9)).floor() as u64
 }
 
-#[allow(clippy::cast_precision_loss, reason = "clocks of a frame are far below 2^53")]
-pub(crate) fn clocks_as_float(clocks: u64) -> f64 {
+/// Converts a count to a floating-point number.
+#[must_use]
+#[allow(clippy::cast_precision_loss, reason = "exact up to 2^53")]
+pub fn count_to_f64(clocks: u64) -> f64 {
     clocks as f64
 }
 

@@ -41,7 +41,7 @@ impl ReportTable {
 
     /// Returns the table as text. Columns that do not fit are placed below the others, after a
     /// repeated first column.
-    pub fn stacked_text(&self, width: usize) -> String {
+    pub(crate) fn stacked_text(&self, width: usize) -> String {
         let widths = self.widths();
         let first = widths.first().copied().unwrap_or_default();
         let (mut parts, mut used) = (vec![Vec::new()], first);

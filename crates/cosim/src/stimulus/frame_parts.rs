@@ -42,12 +42,14 @@ impl FramePart {
     }
 
     /// Returns the parts that are simulated. An array has one part. A lone unit has as many parts,
-    /// evenly spread over the frames of the `whole` design, as are affordable for `frames` frames.
+    /// evenly spread over the frames of the `whole` design, as are affordable for `frames` frames, and
+    /// `most` at most. Without that limit, each region has an RPU.
     pub(super) fn all_of(
         whole: &Design,
         simulated: &Design,
         level: CosimLevel,
         frames: usize,
+        most: Option<u64>,
     ) -> Vec<Self> {
         match level {
             _ if frames == 0 => Vec::new(),
@@ -56,21 +58,26 @@ impl FramePart {
             }
             CosimLevel::Rpu => {
                 let clocks = frames as u64 * simulated.timing().clocks_per_frame();
-                Self::unit_parts(whole, simulated, MAX_CLOCKS / clocks.max(1))
+                Self::unit_parts(whole, simulated, (MAX_CLOCKS / clocks.max(1), most))
             }
         }
     }
 
-    /// Returns the parts that go through a lone unit, `affordable` at most.
-    fn unit_parts(whole: &Design, simulated: &Design, affordable: u64) -> Vec<Self> {
-        let spread = |all: u32| {
-            let affordable = affordable.clamp(1, all.into());
-            let nth = move |number| number * u64::from(all) / affordable;
-            (0..affordable).map(move |number| u32::try_from(nth(number)).expect("less than all"))
+    /// Returns the parts that go through a lone unit, `affordable` and `most` at most.
+    fn unit_parts(
+        whole: &Design,
+        simulated: &Design,
+        (affordable, most): (u64, Option<u64>),
+    ) -> Vec<Self> {
+        let limited = most.map_or(affordable, |most| most.min(affordable));
+        let spread = |all: u32, count: u64| {
+            let count = count.clamp(1, all.into());
+            let nth = move |number| number * u64::from(all) / count;
+            (0..count).map(move |number| u32::try_from(nth(number)).expect("less than all"))
         };
         match whole.hardware() {
             // A region takes one clock per pixel, and each region has an RPU of its own.
-            Hardware::Pipelined(_) => (0..whole.regions())
+            Hardware::Pipelined(_) => spread(whole.regions(), most.map_or(u64::MAX, |_| limited))
                 .map(|region| {
                     let part = Self::new("frames", Some(region), PartPosition::Region(region));
                     Self { border: region_border(whole, region), ..part }
@@ -78,7 +85,7 @@ impl FramePart {
                 .collect(),
             Hardware::Serial(own) => {
                 let fold = whole.with_hardware(own).fold();
-                spread(whole.with_hardware(own).lanes())
+                spread(whole.with_hardware(own).lanes(), limited)
                     .map(|lane| {
                         Self::new("frames", Some(lane * fold), PartPosition::Lane(lane * fold))
                     })
@@ -87,7 +94,7 @@ impl FramePart {
             Hardware::Raster(_) => {
                 let (width, height) = (simulated.width(), simulated.height());
                 let columns = whole.width().div_ceil(width);
-                spread(columns * whole.height().div_ceil(height))
+                spread(columns * whole.height().div_ceil(height), limited)
                     .map(|tile| {
                         let (left, top) = (tile % columns * width, tile / columns * height);
                         let name = format!("frames from x {left}, y {top} on");

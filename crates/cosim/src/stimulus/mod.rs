@@ -143,7 +143,10 @@ impl Stimulus {
         cancel: &AtomicBool,
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<Recording, CosimError> {
-        self.check_frames(design)?;
+        if self.rounds == 0 && self.frames.is_empty() {
+            return Err(CosimError::NothingToSimulate);
+        }
+        check_frames(&self.frames, design)?;
         let simulated = self.level.design(design)?;
         self.check_size(&simulated)?;
         let mut recorder = Recorder::new(&self.level.top().ports(&simulated))?;
@@ -186,22 +189,19 @@ impl Stimulus {
         }
         Ok(())
     }
+}
 
-    /// Refuses missing frames and frames of another size or depth.
-    fn check_frames(&self, design: &Design) -> Result<(), CosimError> {
-        if self.rounds == 0 && self.frames.is_empty() {
-            return Err(CosimError::NothingToSimulate);
+/// Refuses frames of another size or depth than the design.
+fn check_frames(frames: &[Frame], design: &Design) -> Result<(), CosimError> {
+    let kind = |width, height, bits| format!("{width}x{height} pixels of {bits} bits");
+    let wanted = kind(design.width(), design.height(), design.pixel_bits());
+    for (index, frame) in frames.iter().enumerate() {
+        let found = kind(frame.width(), frame.height(), frame.bits());
+        if found != wanted {
+            return Err(CosimError::FrameShape { index, found, wanted });
         }
-        let kind = |width, height, bits| format!("{width}x{height} pixels of {bits} bits");
-        let wanted = kind(design.width(), design.height(), design.pixel_bits());
-        for (index, frame) in self.frames.iter().enumerate() {
-            let found = kind(frame.width(), frame.height(), frame.bits());
-            if found != wanted {
-                return Err(CosimError::FrameShape { index, found, wanted });
-            }
-        }
-        Ok(())
     }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -37,7 +37,7 @@ pub(super) enum StimulusPace {
     /// Without pauses, and with fixed values at unused inputs.
     Steady {
         /// The largest number of parts of the frames; they are spread evenly.
-        max_parts: usize,
+        max_parts: u64,
     },
 }
 
@@ -72,41 +72,28 @@ pub(super) struct StimulusSession<'a> {
     has_border: bool,
     random: Random,
     frame_generator: FrameGenerator,
-    limits: SequenceLimits,
-    is_left_out: fn(&str) -> bool,
-    pace: StimulusPace,
+    plan: StimulusPlan,
 }
 
 impl<'a> StimulusSession<'a> {
     pub(super) fn new(
         (whole, design): (&'a Design, &'a Design),
         level: CosimLevel,
-        StimulusPlan { seed, limits, is_left_out, pace }: StimulusPlan,
+        plan: StimulusPlan,
         recorder: &'a mut Recorder,
         cancel: &'a AtomicBool,
     ) -> Self {
-        let mut random = Random::new(seed);
+        let mut random = Random::new(plan.seed);
         let feed = FrameFeed::for_level(level, design);
         let has_border = recorder.has_port(PortRole::Border);
         let top = (design, level.top());
-        let unused = match pace {
+        let unused = match plan.pace {
             StimulusPace::Varied => UnusedInputs::Random,
             StimulusPace::Steady { .. } => UnusedInputs::Constant { refused_clocks: 0 },
         };
         let driver = ModelDriver::new(top, feed, unused, recorder, random.fork(), cancel);
         let frame_generator = FrameGenerator::new(&feed, &mut random);
-        Self {
-            whole,
-            design,
-            level,
-            driver,
-            has_border,
-            random,
-            frame_generator,
-            limits,
-            is_left_out,
-            pace,
-        }
+        Self { whole, design, level, driver, has_border, random, frame_generator, plan }
     }
 
     /// Records all sequences: the directed ones in every round, then the parts of the caller's
@@ -116,18 +103,20 @@ impl<'a> StimulusSession<'a> {
         frames: &[Frame],
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<(), CosimError> {
-        let mut parts = FramePart::all_of(self.whole, self.design, self.level, frames.len());
-        if let StimulusPace::Steady { max_parts } = self.pace {
-            parts = evenly_spread(parts, max_parts);
-        }
+        let most = match self.plan.pace {
+            StimulusPace::Varied => None,
+            StimulusPace::Steady { max_parts } => Some(max_parts),
+        };
+        let count = frames.len();
+        let parts = FramePart::all_of(self.whole, self.design, self.level, count, most);
         let mut directed = sequences(self.design, self.driver.has_frame_sync());
-        directed.retain(|sequence| !(self.is_left_out)(sequence.name));
-        directed.truncate(self.limits.max_sequences);
-        let total = u64::from(self.limits.rounds) * directed.len() as u64 + parts.len() as u64;
+        directed.retain(|sequence| !(self.plan.is_left_out)(sequence.name));
+        directed.truncate(self.plan.limits.max_sequences);
+        let total = u64::from(self.plan.limits.rounds) * directed.len() as u64 + parts.len() as u64;
         let mut finished = 0..=total;
         let mut advance = || progress(finished.next().unwrap_or(total), total);
         advance();
-        for round in 0..self.limits.rounds as usize {
+        for round in 0..self.plan.limits.rounds as usize {
             for (number, sequence) in directed.iter().enumerate() {
                 self.play_directed(sequence, round, number)?;
                 advance();
@@ -209,7 +198,7 @@ impl<'a> StimulusSession<'a> {
         part: &FramePart,
         frames: &[Frame],
     ) -> Result<(), CosimError> {
-        let gaps = match self.pace {
+        let gaps = match self.plan.pace {
             StimulusPace::Varied => gaps_of_turn(number),
             StimulusPace::Steady { .. } => GapPattern::None,
         };
@@ -246,7 +235,7 @@ impl<'a> StimulusSession<'a> {
 
     /// Returns the turn of a sink for the turn of a sequence.
     fn sink_turn(&self, turn: usize) -> usize {
-        turn + if self.limits.is_brief() { LOSSY_TURN_OFFSET } else { 0 }
+        turn + if self.plan.limits.is_brief() { LOSSY_TURN_OFFSET } else { 0 }
     }
 
     /// Returns the number of beats of a frame.
@@ -281,15 +270,6 @@ impl<'a> StimulusSession<'a> {
         }
         self.driver.drain(last, gaps)
     }
-}
-
-/// Returns at most `count` of the parts, evenly spread.
-fn evenly_spread(parts: Vec<FramePart>, count: usize) -> Vec<FramePart> {
-    let (all, count) = (parts.len(), count.max(1));
-    let is_taken =
-        |number: usize| count >= all || number * count / all != (number + 1) * count / all;
-    let numbered = parts.into_iter().enumerate();
-    numbered.filter(|(number, _)| is_taken(*number)).map(|(_, part)| part).collect()
 }
 
 /// Returns the gaps of a sequence.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Frames that a lone unit takes without a pause, as it does in a camera.
 
+use super::check_frames;
 use super::session::{SequenceLimits, StimulusPace, StimulusPlan, StimulusSession};
 use crate::error::CosimError;
 use crate::level::CosimLevel;
@@ -15,8 +16,9 @@ use std::sync::atomic::AtomicBool;
 pub struct UnitFrames<'a> {
     /// The frames, of the size and depth of the design.
     pub frames: &'a [Frame],
-    /// The largest number of parts; they are spread evenly over the frame.
-    pub max_parts: usize,
+    /// The largest number of parts, which are spread evenly over the frame. There are fewer if their
+    /// clocks are many.
+    pub max_parts: u64,
 }
 
 impl UnitFrames<'_> {
@@ -25,6 +27,7 @@ impl UnitFrames<'_> {
     /// # Errors
     /// Fails if a frame does not fit, if there is no room for the files, or if `cancel` was set.
     pub fn record(&self, design: &Design, cancel: &AtomicBool) -> Result<Recording, CosimError> {
+        check_frames(self.frames, design)?;
         let level = CosimLevel::Rpu;
         let simulated = level.design(design)?;
         let mut recorder = Recorder::new(&level.top().ports(&simulated))?;

@@ -10,6 +10,7 @@ use super::mapping::MappedArray;
 use super::net_names::source_name;
 use super::timing::{ModuleTiming, SiliconPath, time_module};
 use super::unit_instances::{LONE_UNIT, with_lone_unit, with_units};
+use crate::speed::count_to_f64;
 
 /// The clock port of every array without a bus, and of every unit.
 pub(super) const ARRAY_CLOCK: &str = "clk_i";
@@ -67,7 +68,7 @@ pub(super) fn time_array(
     } else {
         0.0
     };
-    #[allow(clippy::cast_precision_loss, reason = "there are fewer than 2^53 units")]
-    let leakage_nw = shared_leakage_nw + (leakage_nw - shared_leakage_nw) * array.units as f64;
+    let of_unit = leakage_nw - shared_leakage_nw;
+    let leakage_nw = shared_leakage_nw + of_unit * count_to_f64(array.units);
     Ok(ArrayTiming { tool, path, leakage_nw })
 }

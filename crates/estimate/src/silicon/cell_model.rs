@@ -67,14 +67,14 @@ pub struct OutputTransition {
     /// The input.
     pub related_pin: usize,
     /// The relation of the edges of both.
-    pub sense: EdgeSense,
+    pub sense: TimingSense,
     /// The times of a rise and of a fall.
     pub tables: [Option<LookupTable>; 2],
 }
 
 /// The relation of the edges of an input and an output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EdgeSense {
+pub enum TimingSense {
     /// A rise makes a rise.
     Same,
     /// A rise makes a fall.
@@ -299,9 +299,9 @@ impl OutputTransition {
         }
         let Some(&related_pin) = related_pins(group, names)?.first() else { return Ok(None) };
         let sense = match group.attribute("timing_sense") {
-            Some("positive_unate") => EdgeSense::Same,
-            Some("negative_unate") => EdgeSense::Opposite,
-            _ => EdgeSense::Any,
+            Some("positive_unate") => TimingSense::Same,
+            Some("negative_unate") => TimingSense::Opposite,
+            _ => TimingSense::Any,
         };
         Ok(Some(Self { related_pin, sense, tables: tables(group, times, templates)? }))
     }
@@ -403,7 +403,7 @@ mod tests {
         assert_eq!(output.related_pins, [0]);
         assert_eq!([0, 1].map(|edge| output.of_edge(edge, 1.0, 0.0)), [4.0, 4.0]);
         let [transition] = &cell.pins[3].transitions[..] else { panic!("one arc has times") };
-        assert_eq!((transition.related_pin, transition.sense), (0, EdgeSense::Any));
+        assert_eq!((transition.related_pin, transition.sense), (0, TimingSense::Any));
     }
 
     #[test]

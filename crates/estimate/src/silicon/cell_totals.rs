@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::error::SiliconError;
 use super::library::{CellRole, LibertyLibrary};
 use crate::netlist::AreaNetlist;
+use crate::speed::count_to_f64;
 
 /// The cells of a module with all that is inside, without memories that are not mapped.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -70,8 +71,7 @@ impl CellTotals {
             cell: name.to_owned(),
             library: library.name.clone(),
         })?;
-        #[allow(clippy::cast_precision_loss, reason = "there are fewer than 2^53 cells")]
-        let area = area * count as f64;
+        let area = area * count_to_f64(count);
         self.cells += count;
         self.area_um2 += area;
         if cell.role == CellRole::FlipFlop {
@@ -84,8 +84,7 @@ impl CellTotals {
     /// Returns the sum of this and `times` others.
     #[must_use]
     pub fn plus(self, other: Self, times: u64) -> Self {
-        #[allow(clippy::cast_precision_loss, reason = "there are fewer than 2^53 units")]
-        let factor = times as f64;
+        let factor = count_to_f64(times);
         Self {
             cells: self.cells + other.cells * times,
             flip_flops: self.flip_flops + other.flip_flops * times,

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use foveate_design::Design;
 use foveate_emit::Top;
-use foveate_toolchain::{Cache, ToolRecord, Toolchain};
+use foveate_toolchain::{Cache, Toolchain};
 use serde_json::Value;
 
 use super::error::SiliconError;
@@ -21,8 +21,6 @@ pub const HIGH_NET: usize = 1;
 /// The cells and nets of a unit: an RPU of `pipelined`, or a lane of `serial` with its sequencer.
 #[derive(Clone, Debug)]
 pub struct FlatNetlist {
-    /// The tool that mapped the unit.
-    pub tool: ToolRecord,
     /// The number of nets; [`LOW_NET`] and [`HIGH_NET`] are the first two.
     pub nets: usize,
     /// The cells.
@@ -59,22 +57,20 @@ pub fn map_unit(
     let array = Top::Rpu.array_top(design);
     let job = EstimateJob::for_design(design, array);
     let mapped = map_array(toolchain, cache, &job.synthesis, library, limit)?;
-    if let Some(bits) = mapped.memories.iter().map(|memory| memory.words * memory.width).max() {
-        return Err(SiliconError::MemoryTooLarge { bits, limit });
-    }
+    mapped.check_memories(limit)?;
     let units = job.units(&mapped.netlist, &job.synthesis)?;
     let top = match array {
         Top::Rpu => &job.synthesis.array,
         Top::Rcm => &units[0],
     };
-    flatten(&mapped.json, top, &units, mapped.tool)
+    flatten(&mapped.json, top, &units)
         .ok_or_else(|| SiliconError::Netlist { reason: format!("module `{top}` cannot be read") })
 }
 
 /// Returns the cells of a module and of all modules inside it. A cell inside one of the modules `units` is
 /// in a unit.
-fn flatten(json: &Value, top: &str, units: &[String], tool: ToolRecord) -> Option<FlatNetlist> {
-    let mut flattening = Flattening {
+fn flatten(json: &Value, top: &str, units: &[String]) -> Option<FlatNetlist> {
+    let mut flattener = NetlistFlattener {
         json,
         units,
         merged: vec![LOW_NET, HIGH_NET],
@@ -82,7 +78,7 @@ fn flatten(json: &Value, top: &str, units: &[String], tool: ToolRecord) -> Optio
         memory_nets: BTreeSet::new(),
     };
     let is_unit = units.iter().any(|unit| unit == top);
-    let nets = flattening.add_module(top, BTreeMap::new(), is_unit)?;
+    let nets = flattener.add_module(top, BTreeMap::new(), is_unit)?;
     let (mut inputs, mut outputs) = (BTreeMap::new(), BTreeMap::new());
     for (name, port) in json["modules"][top]["ports"].as_object()? {
         let ports = match port["direction"].as_str()? {
@@ -93,21 +89,21 @@ fn flatten(json: &Value, top: &str, units: &[String], tool: ToolRecord) -> Optio
         let bus: &mut Vec<usize> = ports.entry(bus.to_owned()).or_default();
         for (place, bit) in (first..).zip(port["bits"].as_array()?) {
             bus.resize(bus.len().max(place + 1), LOW_NET);
-            bus[place] = flattening.root(net_of_bit(bit, &nets)?);
+            bus[place] = flattener.root(net_of_bit(bit, &nets)?);
         }
     }
-    let nets = flattening.merged.len();
-    let roots: Vec<usize> = (0..nets).map(|net| flattening.root(net)).collect();
-    let mut gates = flattening.gates;
+    let nets = flattener.merged.len();
+    let roots: Vec<usize> = (0..nets).map(|net| flattener.root(net)).collect();
+    let mut gates = flattener.gates;
     for net in gates.iter_mut().flat_map(|gate| gate.pins.values_mut()) {
         *net = roots[*net];
     }
-    let memory_nets = flattening.memory_nets.iter().map(|&net| roots[net]).collect();
-    Some(FlatNetlist { tool, nets, gates, inputs, outputs, memory_nets })
+    let memory_nets = flattener.memory_nets.iter().map(|&net| roots[net]).collect();
+    Some(FlatNetlist { nets, gates, inputs, outputs, memory_nets })
 }
 
-/// The state of a flattening.
-struct Flattening<'a> {
+/// The state of a flattener.
+struct NetlistFlattener<'a> {
     json: &'a Value,
     units: &'a [String],
     /// For each net, itself or another net with which it is one.
@@ -116,7 +112,7 @@ struct Flattening<'a> {
     memory_nets: BTreeSet<usize>,
 }
 
-impl Flattening<'_> {
+impl NetlistFlattener<'_> {
     /// Adds the cells of a module. `nets` are the nets of its ports by their numbers in the module; all
     /// nets of the module are returned.
     fn add_module(
@@ -238,8 +234,7 @@ mod tests {
                 "cells": { "cell_1": { "type": "DFF", "connections": { "D": [4], "E": [5], "Q": [6], "QN": [] } } },
                 "netnames": { "u_store.words_q[3][0]": { "bits": [6] }, "count_q[0]": { "bits": [5] } } },
         } });
-        let tool = ToolRecord { name: String::new(), version: String::new(), flags: String::new() };
-        let flat = flatten(&json, "rpu", &["lane".to_owned()], tool).unwrap();
+        let flat = flatten(&json, "rpu", &["lane".to_owned()]).unwrap();
         let a = &flat.inputs["a_i"];
         assert_eq!(flat.outputs["z_o"], [LOW_NET]);
         let pins = |gate: usize| flat.gates[gate].pins.clone();

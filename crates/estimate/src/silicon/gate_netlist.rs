@@ -26,9 +26,7 @@ pub fn gate_netlist(
 ) -> Result<String, SiliconError> {
     let synthesis = job.design.top_synthesis();
     let mapped = map_array(toolchain, cache, synthesis, library, job.memory_limit)?;
-    if let Some(bits) = mapped.memories.iter().map(|memory| memory.words * memory.width).max() {
-        return Err(SiliconError::MemoryTooLarge { bits, limit: job.memory_limit });
-    }
+    mapped.check_memories(job.memory_limit)?;
     let script =
         format!("read_liberty -ignore_miss_func {CELLS}\nwrite_verilog -noattr {MODELS}\n");
     let job =

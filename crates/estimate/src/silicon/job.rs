@@ -16,7 +16,7 @@ use super::report::{
     LibraryFigures, MemoryTotals, SILICON_FORMAT_VERSION, SiliconReport, UnitFigures,
 };
 use crate::EstimateJob;
-use crate::speed::clocks_as_float;
+use crate::speed::count_to_f64;
 
 /// A design to map to the cells of a library.
 #[derive(Clone, Debug)]
@@ -77,7 +77,7 @@ pub fn map_to_silicon(
         time_array(toolchain, cache, &array, library)?;
     let memories: Vec<_> =
         mapped.memories.iter().map(|memory| plan_memory(memory, macros)).collect();
-    let frames_per_second = path.mhz * 1e6 / clocks_as_float(job.design.clocks_per_frame.max(1));
+    let frames_per_second = path.mhz * 1e6 / count_to_f64(job.design.clocks_per_frame.max(1));
     Ok(SiliconReport {
         format_version: SILICON_FORMAT_VERSION,
         rtl_sha256: sources_sha256(&synthesis.sources),

@@ -41,6 +41,16 @@ pub(super) struct MappedArray {
     pub(super) is_sized: bool,
 }
 
+impl MappedArray {
+    /// Refuses an array of which a memory is not in the netlist, because it has more than `limit` bits.
+    pub(super) fn check_memories(&self, limit: u64) -> Result<(), SiliconError> {
+        match self.memories.iter().map(|memory| memory.words * memory.width).max() {
+            None => Ok(()),
+            Some(bits) => Err(SiliconError::MemoryTooLarge { bits, limit }),
+        }
+    }
+}
+
 /// A memory of a module that is not in the netlist.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct UnmappedMemory {

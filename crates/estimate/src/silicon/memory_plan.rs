@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::library::{LibertyLibrary, MemoryShape};
 use super::mapping::UnmappedMemory;
+use crate::speed::count_to_f64;
 
 /// A memory of a module that is not mapped to cells.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -51,9 +52,7 @@ pub(super) fn plan_memory(memory: &UnmappedMemory, libraries: &[LibertyLibrary])
     let fitting = macros.filter(|(_, shape, _)| fits(memory, *shape));
     let choices = fitting.map(|(name, shape, area)| {
         let count = memory.words.div_ceil(shape.words) * memory.width.div_ceil(shape.width);
-        #[allow(clippy::cast_precision_loss, reason = "there are fewer than 2^53 macros")]
-        let area_um2 = area * count as f64;
-        MacroChoice { name: name.to_owned(), count, area_um2 }
+        MacroChoice { name: name.to_owned(), count, area_um2: area * count_to_f64(count) }
     });
     MemoryFigures {
         name: memory.name.clone(),

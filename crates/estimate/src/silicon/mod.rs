@@ -25,7 +25,7 @@ mod timing;
 mod unit_instances;
 
 pub use cell_model::{
-    CellModel, CellModels, CellPin, EdgeSense, FlipFlopState, InternalEnergy, OutputTransition,
+    CellModel, CellModels, CellPin, FlipFlopState, InternalEnergy, OutputTransition, TimingSense,
 };
 pub use cell_totals::CellTotals;
 pub use error::SiliconError;

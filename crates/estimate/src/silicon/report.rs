@@ -8,6 +8,7 @@ use super::cell_totals::CellTotals;
 use super::leaves::SiliconLeaf;
 use super::memory_plan::MemoryFigures;
 use super::timing::SiliconPath;
+use crate::speed::count_to_f64;
 
 /// The version of the JSON report. It grows when a field changes its meaning or is removed.
 pub const SILICON_FORMAT_VERSION: u32 = 1;
@@ -102,10 +103,8 @@ impl MemoryTotals {
             match &memory.macros {
                 None => total.bits_without_macro += memory.bits(),
                 Some(choice) => {
-                    #[allow(clippy::cast_precision_loss, reason = "there are few memories")]
-                    let count = memory.count as f64;
                     total.macros += choice.count * memory.count;
-                    total.macro_area_um2 += choice.area_um2 * count;
+                    total.macro_area_um2 += choice.area_um2 * count_to_f64(memory.count);
                 }
             }
         }
@@ -130,8 +129,7 @@ impl SiliconReport {
     /// pixels of a region together have as much area as a region's share of cells and macros.
     #[must_use]
     pub fn pixel_pitch_um(&self) -> f64 {
-        #[allow(clippy::cast_precision_loss, reason = "there are fewer than 2^53 regions")]
-        let regions = self.regions as f64;
-        (self.area_mm2() * 1e6 / regions).sqrt() / f64::from(self.region_size)
+        let of_region = self.area_mm2() * 1e6 / count_to_f64(self.regions);
+        of_region.sqrt() / f64::from(self.region_size)
     }
 }

@@ -2,6 +2,7 @@
 //! `foveate estimate --liberty`: area, timing, leakage and energy of a design in the cells of a process.
 
 use std::path::Path;
+use std::sync::atomic::AtomicBool;
 
 use foveate_energy::{
     EnergyJob, EnergyReport, measure_energy, render_energy_markdown, render_energy_text,
@@ -26,7 +27,8 @@ pub(super) fn run(args: &EstimateArgs, flow: &SynthesisTools) -> Result<(), CliE
         let message = "--clock with --liberty is for the power of --activity; the clock of a report on area is measured";
         return Err(CliError::Usage(message.to_owned()));
     }
-    let energy = args.activity.as_deref().map(|clip| open_clip(args, clip)).transpose()?;
+    let cancel = flow.toolchain.cancel_flag();
+    let energy = args.activity.as_deref().map(|clip| open_clip(args, clip, cancel)).transpose()?;
     let design = match &energy {
         Some(energy) => energy.design().clone(),
         None => args.design.design()?,
@@ -82,13 +84,17 @@ struct ProcessReport {
     energy: Option<EnergyReport>,
 }
 
-fn open_clip(args: &EstimateArgs, clip: &Path) -> Result<EnergyJob, CliError> {
+fn open_clip(args: &EstimateArgs, clip: &Path, cancel: &AtomicBool) -> Result<EnergyJob, CliError> {
+    let progress = Progress::new(args.quiet);
+    progress.report_work("playing the clip");
     let options = InputOptions {
         frames: Some(args.max_frames),
         interrupt: interrupt::stop_request(),
         ..InputOptions::default()
     };
-    Ok(EnergyJob::open(clip, &args.design.config()?, &options, f64::from(args.fps))?)
+    let job = EnergyJob::open(clip, &args.design.config()?, &options, f64::from(args.fps), cancel);
+    progress.finish();
+    Ok(job?)
 }
 
 fn print_reports(args: &EstimateArgs, reports: &[ProcessReport]) -> Result<(), CliError> {
@@ -100,15 +106,15 @@ fn print_reports(args: &EstimateArgs, reports: &[ProcessReport]) -> Result<(), C
     }
     let width = output::text_width();
     let render = |ProcessReport { silicon, energy }: &ProcessReport| {
-        let text = match args.markdown {
-            true => render_silicon_markdown(silicon),
-            false => render_silicon_text(silicon, width),
+        let energy = energy.as_ref();
+        let (silicon, energy) = match args.markdown {
+            true => (render_silicon_markdown(silicon), energy.map(render_energy_markdown)),
+            false => {
+                let energy = energy.map(|energy| render_energy_text(energy, width));
+                (render_silicon_text(silicon, width), energy)
+            }
         };
-        let energy = energy.as_ref().map(|energy| match args.markdown {
-            true => render_energy_markdown(energy),
-            false => render_energy_text(energy, width),
-        });
-        energy.map_or(text.clone(), |energy| format!("{text}\n{energy}"))
+        std::iter::once(silicon).chain(energy).collect::<Vec<_>>().join("\n")
     };
     output::print_text(&reports.iter().map(render).collect::<Vec<_>>().join("\n"))
 }
