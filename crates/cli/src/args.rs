@@ -21,6 +21,7 @@ mod live;
 mod outputs;
 #[cfg(test)]
 mod page;
+mod process;
 mod stress;
 mod threads;
 mod view;
@@ -53,6 +54,7 @@ pub(crate) use input::warn_about_inputs;
 pub(crate) use link::LinkArgs;
 pub(crate) use live::LiveArgs;
 pub(crate) use outputs::OutputArgs;
+pub(crate) use process::ProcessArgs;
 pub(crate) use stress::StressArgs;
 pub(crate) use view::ViewArgs;
 

@@ -191,6 +191,8 @@ fn explore_code(error: &ExploreError) -> u8 {
     match error {
         ExploreError::Playback(error) => playback_code(error),
         ExploreError::Estimate(error) => estimate_code(error),
+        ExploreError::Silicon(error) => silicon_code(error),
+        ExploreError::Energy(error) => energy_code(error),
         ExploreError::Link(error) => link_code(error),
         _ => INPUT_CODE,
     }

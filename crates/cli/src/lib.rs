@@ -12,6 +12,7 @@ mod args;
 mod command;
 mod error;
 mod interrupt;
+mod liberty;
 mod notice;
 mod output;
 mod progress;

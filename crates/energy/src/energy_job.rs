@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Measures the energy of a design: maps a unit, simulates it on stretches of a clip, and adds up.
 
-use std::collections::BTreeSet;
+use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use foveate_cosim::{Recording, UnitFrames};
-use foveate_design::{Design, DesignConfig, Organization, OrganizationConfig};
+use foveate_design::{Design, DesignConfig, Organization};
 use foveate_estimate::{LibertyLibrary, SiliconReport, count_to_f64, map_unit};
 use foveate_footage::InputOptions;
 use foveate_frame::Frame;
+use foveate_playback::{ClipReading, RunClips};
 use foveate_toolchain::{Cache, Toolchain};
 
 use crate::activity::NetActivity;
@@ -18,7 +20,7 @@ use crate::error::EnergyError;
 use crate::net_electrics::NetElectrics;
 use crate::report::{ENERGY_FORMAT_VERSION, EnergyReport, StretchEnergy};
 use crate::simulated_netlist::SimulatedNetlist;
-use crate::stretches::{ClipStretch, FRAMES_BEFORE, PlayedClip};
+use crate::stretches::{ActivityClip, ClipStretch, FRAMES_BEFORE};
 use crate::unit_activity::unit_activity;
 
 /// The largest number of units that are simulated.
@@ -28,24 +30,24 @@ const FAST_FRAME: u64 = 1 << 12;
 /// The changes of a net per clock that tools assume.
 const DEFAULT_ACTIVITY: f64 = 0.1;
 
-/// A clip that gives a design its activity.
+/// A design with the activity that a clip gives it.
+#[derive(Debug)]
 pub struct EnergyJob {
     design: Design,
     name: String,
     /// The number of frames of the clip.
     frames: u64,
-    /// The stretches with the vectors of their units.
-    stretches: Vec<(ClipStretch, Recording)>,
+    stretches: Vec<ClipStretch>,
+    /// The vectors of the units in each stretch, by its first frame.
+    recordings: BTreeMap<u64, Recording>,
     frame_rate: f64,
 }
 
 impl EnergyJob {
-    /// Plays the clip, finds its stretches, and records what units take and what the model makes of it. The
-    /// design takes the size of the clip. Powers are for `frame_rate` frames per second.
+    /// Plays the clip of an input to a design, which takes the size of the clip; see [`EnergyJob::record`].
     ///
     /// # Errors
-    /// Fails if the clip cannot be read twice, is too short or does not fit, for organization `raster`, if
-    /// there is no room for the vectors, or if `cancel` was set.
+    /// Fails if the input is not one clip that can be read twice, or as [`EnergyJob::record`] does.
     pub fn open(
         input: &Path,
         config: &DesignConfig,
@@ -53,22 +55,45 @@ impl EnergyJob {
         frame_rate: f64,
         cancel: &AtomicBool,
     ) -> Result<Self, EnergyError> {
-        if matches!(config.hardware.organization, OrganizationConfig::Raster(_)) {
-            return Err(EnergyError::Raster);
+        check_organization(config.hardware.organization.kind())?;
+        let clips = RunClips::new(&[input.to_owned()], &[], &config.camera, options)?;
+        if clips.clips().len() > 1 {
+            return Err(EnergyError::SeveralClips { input: clips.inputs().join(", ") });
         }
-        let clip = PlayedClip::open(input, config, options)?;
-        let is_fast = clip.design.timing().clocks_per_frame() <= FAST_FRAME;
-        let (frames, stretches) = clip.stretches(if is_fast { 4 } else { 1 })?;
-        let shown = clip.frames(&stretches)?;
-        let record = |stretch: ClipStretch| {
-            let frames = stretch.simulated().filter_map(|at| shown.get(&at).cloned());
-            let frames: Vec<Frame> = frames.collect();
-            let vectors = UnitFrames { frames: &frames, max_parts: MAX_UNITS };
-            Ok((stretch, vectors.record(&clip.design, cancel)?))
-        };
-        let stretches = stretches.into_iter().map(record).collect::<Result<_, EnergyError>>()?;
-        let name = input.display().to_string();
-        Ok(Self { design: clip.design, name, frames, stretches, frame_rate })
+        let (width, height) = clips.common_format(ClipReading::Repeated)?.size;
+        let design = config.validate_for_frames(width, height)?;
+        let clip = ActivityClip { clips: &clips, clip: 0, frames: 0..u64::MAX };
+        let job = Self::record(&clip, &design, frame_rate, cancel)?;
+        Ok(Self { name: input.display().to_string(), ..job })
+    }
+
+    /// Plays a clip to a design of its size, finds the stretches to measure, and records what units take and
+    /// what the model makes of it. Powers are for `frame_rate` frames per second.
+    ///
+    /// # Errors
+    /// Fails if the clip cannot be read, is too short or does not fit, for organization `raster`, if there is
+    /// no room for the vectors, or if `cancel` was set.
+    pub fn record(
+        clip: &ActivityClip<'_>,
+        design: &Design,
+        frame_rate: f64,
+        cancel: &AtomicBool,
+    ) -> Result<Self, EnergyError> {
+        check_organization(design.organization())?;
+        let is_fast = design.timing().clocks_per_frame() <= FAST_FRAME;
+        let (frames, stretches) = clip.stretches(design, if is_fast { 4 } else { 1 })?;
+        let shown = clip.read_stretches(&stretches, design.pixel_bits())?;
+        let mut recordings = BTreeMap::new();
+        for stretch in &stretches {
+            if let Entry::Vacant(entry) = recordings.entry(stretch.first) {
+                let frames = stretch.simulated().filter_map(|at| shown.get(&at).cloned());
+                let frames: Vec<Frame> = frames.collect();
+                let vectors = UnitFrames { frames: &frames, max_parts: MAX_UNITS };
+                entry.insert(vectors.record(design, cancel)?);
+            }
+        }
+        let name = clip.clips.clips()[clip.clip].name.clone();
+        Ok(Self { design: design.clone(), name, frames, stretches, recordings, frame_rate })
     }
 
     /// Returns the design in the size of the clip.
@@ -106,16 +131,34 @@ pub fn measure_energy(
         default: EnergySum::of_activity(&netlist, &electrics, &uniform),
     };
     let mut report = array.report(job);
-    for (stretch, recording) in &job.stretches {
-        let first = FRAMES_BEFORE + delay_of_work(design);
-        let counted = first..first + stretch.frames;
-        let activity = unit_activity(&netlist, recording, &counted, toolchain.cancel_flag())?;
-        let sum = EnergySum::of_activity(&netlist, &electrics, &activity);
+    // Stretches of a short clip may be the same.
+    let mut sums = BTreeMap::new();
+    for stretch in &job.stretches {
+        let recording = &job.recordings[&stretch.first];
         let units = recording.sequences();
+        let (sum, clocks) = match sums.entry(stretch.first) {
+            Entry::Occupied(known) => *known.get(),
+            Entry::Vacant(entry) => {
+                let first = FRAMES_BEFORE + delay_of_work(design);
+                let counted = first..first + stretch.frames;
+                let activity =
+                    unit_activity(&netlist, recording, &counted, toolchain.cancel_flag())?;
+                let sum = EnergySum::of_activity(&netlist, &electrics, &activity);
+                *entry.insert((sum, activity.clocks))
+            }
+        };
         report.simulated_units = units;
-        report.stretches.push(array.stretch(stretch, sum, (activity.clocks, units)));
+        report.stretches.push(array.stretch(stretch, sum, (clocks, units)));
     }
     Ok(report)
+}
+
+/// Refuses an organization whose energy cannot be measured.
+fn check_organization(organization: Organization) -> Result<(), EnergyError> {
+    match organization {
+        Organization::Pipelined | Organization::Serial => Ok(()),
+        Organization::Raster => Err(EnergyError::Raster),
+    }
 }
 
 /// Returns the number of frames that a unit is behind the frame that it takes. An RPU scores pixels as they

@@ -25,3 +25,4 @@ pub use energy_job::{EnergyJob, measure_energy};
 pub use error::EnergyError;
 pub use render::{render_energy_markdown, render_energy_text};
 pub use report::{ENERGY_FORMAT_VERSION, EnergyReport, PartEnergies, StretchEnergy};
+pub use stretches::ActivityClip;

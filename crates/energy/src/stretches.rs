@@ -2,14 +2,14 @@
 //! The stretches of a clip whose activity is measured: a quiet one, a usual one and the busiest one.
 
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::ops::Range;
 
-use foveate_design::{Design, DesignConfig};
+use foveate_design::Design;
 use foveate_engine::Engine;
 use foveate_estimate::count_to_f64;
-use foveate_footage::{InputOptions, SourceKind};
+use foveate_footage::SourceKind;
 use foveate_frame::Frame;
-use foveate_playback::{ClipReading, PlaybackError, RunClips};
+use foveate_playback::{FrameDepths, PlaybackError, RunClips};
 
 use crate::error::EnergyError;
 
@@ -32,64 +32,77 @@ pub(crate) struct ClipStretch {
 
 impl ClipStretch {
     /// Returns the numbers of the frames that are simulated.
-    pub(crate) fn simulated(&self) -> std::ops::Range<u64> {
+    pub(crate) fn simulated(&self) -> Range<u64> {
         self.first - FRAMES_BEFORE..self.first + self.frames + FRAMES_BEHIND
     }
 }
 
-/// A clip that is played to a design.
-pub(crate) struct PlayedClip {
-    clips: RunClips,
-    /// The design in the size of the clip.
-    pub(crate) design: Design,
+/// Frames of a clip that give a design its activity.
+#[derive(Clone, Debug)]
+pub struct ActivityClip<'a> {
+    /// The clips of the run.
+    pub clips: &'a RunClips,
+    /// The number of the clip among them.
+    pub clip: usize,
+    /// The numbers of the frames whose activity counts. The camera sees the frames before them, too.
+    pub frames: Range<u64>,
 }
 
-impl PlayedClip {
-    /// Opens a clip for a design of its size.
-    pub(crate) fn open(
-        input: &Path,
-        config: &DesignConfig,
-        options: &InputOptions,
-    ) -> Result<Self, EnergyError> {
-        let clips = RunClips::new(&[input.to_owned()], &[], &config.camera, options)?;
-        if clips.clips().len() > 1 {
-            return Err(EnergyError::SeveralClips { input: clips.inputs().join(", ") });
+impl ActivityClip<'_> {
+    /// The least number of frames whose activity counts.
+    pub const MIN_FRAMES: u64 = FRAMES_BEFORE + 1 + FRAMES_BEHIND;
+
+    /// Checks that the clip has an order in time.
+    ///
+    /// # Errors
+    /// Fails if the clip is a set of images, or cannot be opened.
+    pub fn check(&self) -> Result<(), EnergyError> {
+        let player = self.clips.open(self.clip)?;
+        match player.kind() {
+            SourceKind::Clip => Ok(()),
+            SourceKind::Set => Err(EnergyError::NoClip { input: player.inputs().join(", ") }),
         }
-        let (width, height) = clips.common_format(ClipReading::Repeated)?.size;
-        let design = config.validate_for_frames(width, height)?;
-        Ok(Self { clips, design })
     }
 
-    /// Plays the clip to a camera. Returns the number of its frames and the stretches to measure, of
-    /// `length` frames or as many as the clip has.
-    pub(crate) fn stretches(&self, length: u64) -> Result<(u64, Vec<ClipStretch>), EnergyError> {
-        let mut engine = Engine::new(self.design.camera());
+    /// Shows the clip to the camera of a design. Returns the number of frames whose activity counts, and the
+    /// stretches to measure, of `length` frames or as many as there are.
+    pub(crate) fn stretches(
+        &self,
+        design: &Design,
+        length: u64,
+    ) -> Result<(u64, Vec<ClipStretch>), EnergyError> {
+        let mut engine = Engine::new(design.camera());
         let mut sent = Vec::new();
-        let player = self.clips.open(0)?;
-        if player.kind() == SourceKind::Set {
-            return Err(EnergyError::NoClip { input: player.inputs().join(", ") });
+        self.check()?;
+        for played in self.clips.open(self.clip)?.limited_to(self.frames.end) {
+            let played = played?;
+            let frames = FrameDepths::from_frame(&played, [design.pixel_bits()])?;
+            let outcome = frames.show_to(&mut engine)?;
+            if self.frames.contains(&played.number) {
+                sent.push(outcome.active.iter().filter(|active| **active).count() as u64);
+            }
         }
-        for played in player {
-            let outcome = played?.show_to(&mut engine)?;
-            sent.push(outcome.active.iter().filter(|active| **active).count() as u64);
-        }
-        let stretches = choose_stretches(&sent, u64::from(self.design.regions()), length)?;
+        let mut stretches = choose_stretches(&sent, u64::from(design.regions()), length)?;
+        stretches.iter_mut().for_each(|stretch| stretch.first += self.frames.start);
         Ok((sent.len() as u64, stretches))
     }
 
-    /// Reads the frames of all stretches.
-    pub(crate) fn frames(
+    /// Reads the frames of all stretches, with `pixel_bits` bits per pixel.
+    pub(crate) fn read_stretches(
         &self,
         stretches: &[ClipStretch],
+        pixel_bits: u32,
     ) -> Result<BTreeMap<u64, Frame>, EnergyError> {
         let is_wanted =
             |number| stretches.iter().any(|stretch| stretch.simulated().contains(&number));
         let last = stretches.iter().map(|stretch| stretch.simulated().end).max().unwrap_or(0);
         let mut frames = BTreeMap::new();
-        for played in self.clips.open(0)?.limited_to(last) {
+        for played in self.clips.open(self.clip)?.limited_to(last) {
             let played = played?;
             if is_wanted(played.number) {
-                frames.insert(played.number, played.frame.to_frame().map_err(PlaybackError::from)?);
+                let depths = FrameDepths::from_frame(&played, [pixel_bits])?;
+                let frame = depths.frame_at(pixel_bits).to_frame().map_err(PlaybackError::from)?;
+                frames.insert(played.number, frame);
             }
         }
         Ok(frames)
@@ -103,11 +116,11 @@ fn choose_stretches(
     length: u64,
 ) -> Result<Vec<ClipStretch>, EnergyError> {
     let found = sent.len() as u64;
-    let around = FRAMES_BEFORE + FRAMES_BEHIND;
-    let frames = found.saturating_sub(around).min(length);
-    if frames == 0 {
-        return Err(EnergyError::TooShort { found, needed: around + 1 });
+    let needed = ActivityClip::MIN_FRAMES;
+    if found < needed {
+        return Err(EnergyError::TooShort { found, needed });
     }
+    let frames = (found - FRAMES_BEFORE - FRAMES_BEHIND).min(length);
     let of_stretch = |first: u64| -> u64 {
         let of_frame = |frame: u64| usize::try_from(frame).ok().and_then(|frame| sent.get(frame));
         (first..first + frames).filter_map(of_frame).sum()

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The cost and speed of a design: its area and its estimated clock from Yosys, once for every
-//! distinct RTL.
+//! The cost and speed of a design: its area and its estimated clock from Yosys, and its cells in a
+//! process, once for every distinct RTL.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use foveate_design::Design;
 use foveate_emit::Top;
-use foveate_estimate::{Area, EstimateJob, FrameRate, estimate};
-use foveate_playback::{PlaybackError, RunHooks};
+use foveate_estimate::{Area, EstimateJob, FrameRate, SiliconReport, estimate};
+use foveate_playback::{PlaybackError, RunHooks, RunProgress};
 use foveate_toolchain::{Cache, Toolchain, sources_sha256};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::ExploreError;
-use crate::progress::synthesis_progress;
+use crate::progress::{mapping_progress, synthesis_progress};
+use crate::target_process::TargetProcess;
 
 /// The area of a design, as Yosys estimates it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -49,25 +50,63 @@ pub struct Synthesizer {
     pub cache: Cache,
 }
 
-/// The results of synthesizing some designs: an area, or the error of Yosys.
-pub(crate) struct SynthesisResults {
+/// The results for some designs, one for every distinct RTL: a value, or an error.
+pub(crate) struct ResultsByRtl<T> {
     /// The key of every design, which is unique for its RTL.
     keys: Vec<String>,
-    by_rtl: BTreeMap<String, Result<SynthesisResult, ExploreError>>,
+    by_rtl: BTreeMap<String, Result<T, ExploreError>>,
 }
 
-impl SynthesisResults {
+impl<T: Send> ResultsByRtl<T> {
+    /// Computes the result of every distinct RTL of some designs in parallel. `stage` reports how many are
+    /// done, and of how many.
+    ///
+    /// # Errors
+    /// Fails if `hooks` cancels.
+    fn compute<'a>(
+        designs: impl Iterator<Item = &'a Design>,
+        hooks: &dyn RunHooks,
+        stage: fn(usize, usize) -> RunProgress<'static>,
+        compute: impl Fn(&Design) -> Result<T, ExploreError> + Sync,
+    ) -> Result<Self, ExploreError> {
+        let mut distinct = BTreeMap::new();
+        let keys = designs.map(|design| {
+            let job = EstimateJob::for_design(design, Top::Rcm);
+            let all = job.top_synthesis();
+            let key = format!("{} {:?}", sources_sha256(&all.sources), all.parameters);
+            distinct.entry(key.clone()).or_insert(design);
+            key
+        });
+        let keys = keys.collect();
+        let (done, all) = (AtomicUsize::new(0), distinct.len());
+        let running = distinct.into_par_iter().filter(|_| !hooks.is_cancelled());
+        let results = running.map(|(key, design)| {
+            let result = compute(design);
+            let done = 1 + done.fetch_add(1, Ordering::Relaxed);
+            hooks.progress(&stage(done, all));
+            (key, result)
+        });
+        let by_rtl = results.collect();
+        if hooks.is_cancelled() {
+            Err(PlaybackError::Interrupted.into())
+        } else {
+            Ok(Self { keys, by_rtl })
+        }
+    }
+}
+
+impl<T: Clone> ResultsByRtl<T> {
     /// Returns the result or the error of every design.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = Result<&SynthesisResult, &ExploreError>> {
+    pub(crate) fn iter(&self) -> impl Iterator<Item = Result<&T, &ExploreError>> {
         self.keys.iter().filter_map(|key| self.by_rtl.get(key)).map(Result::as_ref)
     }
 
     /// Returns the results of all designs.
     ///
     /// # Errors
-    /// Fails with the first error of the synthesis.
-    pub(crate) fn into_results(self) -> Result<Vec<SynthesisResult>, ExploreError> {
-        let found = self.by_rtl.into_iter().map(|(key, area)| Ok((key, area?)));
+    /// Fails with the first error.
+    pub(crate) fn into_results(self) -> Result<Vec<T>, ExploreError> {
+        let found = self.by_rtl.into_iter().map(|(key, result)| Ok((key, result?)));
         let found = found.collect::<Result<BTreeMap<_, _>, ExploreError>>()?;
         Ok(self.keys.iter().filter_map(|key| found.get(key).cloned()).collect())
     }
@@ -82,34 +121,30 @@ impl Synthesizer {
         &self,
         designs: impl Iterator<Item = &'a Design>,
         hooks: &dyn RunHooks,
-    ) -> Result<SynthesisResults, ExploreError> {
-        let mut jobs = BTreeMap::new();
-        let keys = designs.map(|design| {
-            let job = EstimateJob::for_design(design, Top::Rcm);
-            let all = job.top_synthesis();
-            let key = format!("{} {:?}", sources_sha256(&all.sources), all.parameters);
-            jobs.entry(key.clone()).or_insert(job);
-            key
-        });
-        let keys = keys.collect();
-        let (done, all) = (AtomicUsize::new(0), jobs.len());
-        let jobs = jobs.into_par_iter().filter(|_| !hooks.is_cancelled());
-        let areas = jobs.map(|(key, job)| {
-            let area = self.synthesize_job(&job);
-            let done = 1 + done.fetch_add(1, Ordering::Relaxed);
-            hooks.progress(&synthesis_progress(done, all));
-            (key, area)
-        });
-        let by_rtl = areas.collect();
-        if hooks.is_cancelled() {
-            Err(PlaybackError::Interrupted.into())
-        } else {
-            Ok(SynthesisResults { keys, by_rtl })
-        }
+    ) -> Result<ResultsByRtl<SynthesisResult>, ExploreError> {
+        ResultsByRtl::compute(designs, hooks, synthesis_progress, |design| {
+            self.synthesize_design(design)
+        })
     }
 
-    fn synthesize_job(&self, job: &EstimateJob) -> Result<SynthesisResult, ExploreError> {
-        let report = estimate(&self.toolchain, &self.cache, job)?;
+    /// Maps every distinct RTL of some designs to the cells of a process in parallel.
+    ///
+    /// # Errors
+    /// Fails if `hooks` cancels.
+    pub(crate) fn map_designs<'a>(
+        &self,
+        process: &TargetProcess,
+        designs: impl Iterator<Item = &'a Design>,
+        hooks: &dyn RunHooks,
+    ) -> Result<ResultsByRtl<SiliconReport>, ExploreError> {
+        ResultsByRtl::compute(designs, hooks, mapping_progress, |design| {
+            process.map_design(self, design)
+        })
+    }
+
+    fn synthesize_design(&self, design: &Design) -> Result<SynthesisResult, ExploreError> {
+        let job = EstimateJob::for_design(design, Top::Rcm);
+        let report = estimate(&self.toolchain, &self.cache, &job)?;
         let silicon = DesignArea {
             unit: report.rpu,
             units: job.units,

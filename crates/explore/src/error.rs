@@ -4,7 +4,8 @@
 use std::path::PathBuf;
 
 use foveate_design::ConfigError;
-use foveate_estimate::EstimateError;
+use foveate_energy::EnergyError;
+use foveate_estimate::{EstimateError, SiliconError};
 use foveate_fidelity::FidelityError;
 use foveate_ideal::IdealError;
 use foveate_inference::InferenceError;
@@ -105,6 +106,12 @@ pub enum ExploreError {
     /// The synthesis failed.
     #[error(transparent)]
     Estimate(#[from] EstimateError),
+    /// A design cannot be mapped to the cells of a process.
+    #[error(transparent)]
+    Silicon(Box<SiliconError>),
+    /// The energy of a design cannot be measured.
+    #[error(transparent)]
+    Energy(Box<EnergyError>),
     /// A file or folder cannot be written.
     #[error(transparent)]
     Output(#[from] StagingError),
@@ -135,5 +142,20 @@ impl From<LinkError> for ExploreError {
 impl From<InferenceError> for ExploreError {
     fn from(error: InferenceError) -> Self {
         Self::Inference(Box::new(error))
+    }
+}
+
+impl From<SiliconError> for ExploreError {
+    fn from(error: SiliconError) -> Self {
+        Self::Silicon(Box::new(error))
+    }
+}
+
+impl From<EnergyError> for ExploreError {
+    fn from(error: EnergyError) -> Self {
+        match error {
+            EnergyError::Playback(error) => Self::Playback(error),
+            error => Self::Energy(Box::new(error)),
+        }
     }
 }

@@ -32,6 +32,7 @@ mod row;
 mod space;
 mod store;
 mod table;
+mod target_process;
 mod unit;
 
 pub use compare::{CameraComparison, compare};
@@ -51,4 +52,5 @@ pub use point::{DesignPoint, RefusedCombination};
 pub use request::ExploreRequest;
 pub use row::{DesignRow, FrontMembership};
 pub use space::{BUILT_IN_SPACES, BuiltInSpace, DesignSpace};
+pub use target_process::{ProcessEnergy, ProcessFigures, TargetProcess};
 pub use unit::{WorkUnit, measure_unit, plan_units};

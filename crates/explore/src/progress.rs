@@ -28,3 +28,14 @@ pub(crate) fn network_progress(cameras: usize) -> RunProgress<'static> {
 pub(crate) fn synthesis_progress(done: usize, all: usize) -> RunProgress<'static> {
     RunProgress::steps("synthesizing with Yosys", done as u64, all as u64)
 }
+
+/// Reports that designs are mapped to the cells of a process: so many distinct RTLs are done, of all
+/// distinct RTLs.
+pub(crate) fn mapping_progress(done: usize, all: usize) -> RunProgress<'static> {
+    RunProgress::steps("mapping to cells", done as u64, all as u64)
+}
+
+/// Reports that the gates of designs are simulated: so many designs are done, of all designs.
+pub(crate) fn energy_progress(done: usize, all: usize) -> RunProgress<'static> {
+    RunProgress::steps("simulating gates", done as u64, all as u64)
+}

@@ -9,9 +9,11 @@ use foveate_inference::VisionOptions;
 
 use super::check::{ClockFrequency, FramesPerSecond};
 use super::input::InputArgs;
+use super::process::ProcessArgs;
 use super::threads::ThreadArgs;
 use super::vision::VisionArgs;
 use super::{DesignArgs, at_least_one};
+use crate::error::CliError;
 
 /// Find the cheapest design that meets limits on your clips
 ///
@@ -26,7 +28,8 @@ use super::{DesignArgs, at_least_one};
     after_help = "Examples: foveate fit street.mp4 --min-fps 120 --max-flips 1% --max-lut 100
           foveate fit scene:street --target-active 20% -o camera.toml
           foveate fit a.mp4 b.mp4 --resize 640x360 --min-psnr 30 --max-bytes 10000
-          foveate fit street.mp4 --preset fovea --network yolox_nano.onnx --framing letterbox --scale 1/255 --detect yolox --min-agreement 95%"
+          foveate fit street.mp4 --preset fovea --network yolox_nano.onnx --framing letterbox --scale 1/255 --detect yolox --min-agreement 95%
+          foveate fit scene:street --cheapest energy --max-mm2 20 --liberty"
 )]
 pub(crate) struct FitArgs {
     /// Clips, as for `foveate simulate`; several scenes are allowed
@@ -52,12 +55,45 @@ pub(crate) struct FitArgs {
     /// Ground-truth boxes for --min-recall, in a format of `foveate analyze recall`
     #[arg(long, value_name = "FILE", requires = "min_recall")]
     pub(crate) boxes: Vec<PathBuf>,
+    /// Cost that the search minimizes; by default bytes with --network, and area without it
+    #[arg(long, value_enum, value_name = "COST")]
+    cheapest: Option<DesignCost>,
     #[command(flatten)]
     pub(crate) constraints: ConstraintArgs,
+    #[command(flatten)]
+    pub(crate) process: ProcessArgs,
     #[command(flatten)]
     pub(crate) network: NetworkArgs,
     #[command(flatten)]
     pub(crate) input: InputArgs,
+}
+
+impl FitArgs {
+    /// Returns the cost that the search minimizes.
+    ///
+    /// # Errors
+    /// Fails if the cost is not known without another option.
+    pub(crate) fn cheapest(&self) -> Result<CostObjective, CliError> {
+        let (has_network, has_process) =
+            (self.network.network.is_some(), self.process.liberty.is_some());
+        match self.cheapest {
+            None if has_network => Ok(CostObjective::Bytes),
+            None | Some(DesignCost::Area) => Ok(CostObjective::Area),
+            Some(DesignCost::Bytes) if has_network => Ok(CostObjective::Bytes),
+            Some(DesignCost::Bytes) => Err(CliError::Usage(
+                "--cheapest bytes needs --network, whose agreement says which bytes are needed"
+                    .to_owned(),
+            )),
+            Some(DesignCost::Mm2) if has_process => Ok(CostObjective::Mm2),
+            Some(DesignCost::Energy) if has_process => Ok(CostObjective::Energy),
+            Some(cost @ (DesignCost::Mm2 | DesignCost::Energy)) => {
+                let name = if cost == DesignCost::Mm2 { "mm2" } else { "energy" };
+                Err(CliError::Usage(format!(
+                    "--cheapest {name} needs --liberty, the cells of a process"
+                )))
+            }
+        }
+    }
 }
 
 /// The options of a network whose outputs must be nearly the same behind the camera as for whole
@@ -76,9 +112,6 @@ pub(crate) struct NetworkArgs {
     /// otherwise it is 100% minus the relative RMS error of the outputs
     #[arg(long, value_name = "PERCENT", default_value = "95%", value_parser = percent, requires = "network")]
     pub(crate) min_agreement: f64,
-    /// Cost that the search minimizes: bytes that leave the camera, or area
-    #[arg(long, value_enum, value_name = "WHAT", default_value = "bytes", requires = "network")]
-    pub(crate) cheapest: DesignCost,
     /// Number of frames, spread evenly over all clips, on which the network runs in each of three
     /// parts: the first two thirds of the first halves, for the search; the rest of the first
     /// halves, to confirm its result; and the second halves, for the report
@@ -91,20 +124,22 @@ pub(crate) struct NetworkArgs {
 /// The cost by which designs are compared.
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
 pub(crate) enum DesignCost {
+    /// The bytes that leave the camera, with --network
     Bytes,
+    /// The share of the FPGA of a VCU118
     Area,
+    /// The area of the array in the cells of --liberty
+    Mm2,
+    /// The power of the array in the cells of --liberty, at --min-fps
+    Energy,
 }
 
 impl NetworkArgs {
     /// Returns the goal of the search with a network, if a network is given.
     pub(crate) fn goal<'a>(&'a self, vision_options: &'a VisionOptions) -> Option<NetworkGoal<'a>> {
         let path = self.network.as_deref()?;
-        let cheapest = match self.cheapest {
-            DesignCost::Bytes => CostObjective::Bytes,
-            DesignCost::Area => CostObjective::Area,
-        };
         let (min_agreement, frames) = (self.min_agreement, self.look_at.into());
-        Some(NetworkGoal { path, vision_options, min_agreement, cheapest, frames })
+        Some(NetworkGoal { path, vision_options, min_agreement, frames })
     }
 }
 
@@ -154,6 +189,13 @@ pub(crate) struct ConstraintArgs {
     /// At most this many RAMB36 of the array
     #[arg(long, value_name = "N")]
     pub(crate) max_bram: Option<u64>,
+    /// Largest area of the array in the cells of --liberty, in square millimetres
+    #[arg(long, value_name = "MM2", value_parser = above_zero, requires = "liberty")]
+    pub(crate) max_mm2: Option<f64>,
+    /// Largest power of the array in the cells of --liberty in milliwatts, at --min-fps in the busiest
+    /// stretch of the clips
+    #[arg(long, value_name = "MW", value_parser = above_zero, requires = "liberty")]
+    pub(crate) max_mw: Option<f64>,
 }
 
 impl ConstraintArgs {
@@ -173,6 +215,8 @@ impl ConstraintArgs {
             max_ff: self.max_ff,
             max_array_lut: self.max_array_lut,
             max_bram: self.max_bram,
+            max_mm2: self.max_mm2,
+            max_mw: self.max_mw,
         }
     }
 }
@@ -185,6 +229,13 @@ fn percent(text: &str) -> Result<f64, String> {
         .filter(|percent| (0.0..=100.0).contains(percent))
         .map(|percent| percent / 100.0)
         .ok_or_else(|| "expected 0% to 100%, with the sign, for example 1%".to_owned())
+}
+
+fn above_zero(text: &str) -> Result<f64, String> {
+    text.parse::<f64>()
+        .ok()
+        .filter(|value| value.is_finite() && *value > 0.0)
+        .ok_or_else(|| "expected a number above 0, for example 12.5".to_owned())
 }
 
 fn decibels(text: &str) -> Result<f64, String> {

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use foveate_estimate::ramb36;
 use foveate_explore::{
     AgreementEstimate, ConstraintCheck, ExploreError, FidelityFigures, FitRequest, FitResult,
-    FittedDesign, FittedNetwork, fit,
+    FittedDesign, FittedNetwork, ProcessEnergy, ProcessFigures, fit,
 };
 use foveate_footage::ImageRelation;
 use foveate_inference::NoiseAgreement;
@@ -23,10 +23,12 @@ pub(crate) fn run(args: &FitArgs) -> Result<(), CliError> {
     if let Some(file) = &args.output {
         check_file(file)?;
     }
+    let cheapest = args.cheapest()?;
     let task = args.design.config()?;
     let input = args.input.options(ImageRelation::Clip);
     warn_about_inputs(&args.inputs, &input);
     let terminal = RunTerminal::new(args.quiet)?;
+    let process = terminal.process(&args.process)?;
     let synthesizer = terminal.synthesizer()?;
     let vision_options = args.network.vision.options();
     let network = args.network.goal(&vision_options);
@@ -38,6 +40,8 @@ pub(crate) fn run(args: &FitArgs) -> Result<(), CliError> {
         clock_hz: args.constraints.clock.map(|clock| clock.0),
         target_active: args.constraints.target_active,
         boxes: &args.boxes,
+        cheapest,
+        process: process.as_ref(),
         network,
         synthesizer: &synthesizer,
         max_designs: usize::try_from(args.max_syntheses).unwrap_or(usize::MAX),
@@ -119,6 +123,9 @@ fn text(args: &FitArgs, found: &FitResult, width: usize) -> String {
         design.speed.map_or_else(|| "no estimated clock".to_owned(), |speed| speed.text()),
     );
     paragraph(&mut text, &silicon, width, "  ");
+    if let Some(process) = &design.process {
+        paragraph(&mut text, &process_text(design, process), width, "  ");
+    }
     let halves = [
         ("fitted", &design.fitted, &design.fitted_held),
         ("held out", &design.held_out, &design.held_out_held),
@@ -208,6 +215,34 @@ fn unit_count_text(design: &FittedDesign) -> String {
     let name = design.config.hardware.organization.kind().unit_name();
     let plural = if design.silicon.units == 1 { "" } else { "s" };
     format!("{} {name}{plural}", design.silicon.units)
+}
+
+/// Returns the cost of a design in the cells of a process.
+fn process_text(design: &FittedDesign, process: &ProcessFigures) -> String {
+    let name = design.config.hardware.organization.kind().unit_name();
+    let area = match process.mm2 {
+        Some(mm2) => format!("{mm2:.3} mm2"),
+        None => {
+            let bits = process.memory_bits_without_macro;
+            format!("no area of the array, because no macro fits {bits} bits of memory")
+        }
+    };
+    let (library, unit, clock) = (&process.library, process.unit_um2, process.clock_mhz);
+    let mut text =
+        format!("in {library}: {area}, {unit:.0} um2 per {name}, at most {clock:.1} MHz");
+    if let Some(energy) = &process.energy {
+        let ProcessEnergy { frame_rate, nj_per_region, usual_mw, busiest_mw } = energy;
+        let _ = write!(
+            text,
+            ", {usual_mw:.4} mW at {frame_rate} frames/s ({busiest_mw:.4} in the busiest stretch), \
+             {nj_per_region:.3} nJ per region and frame"
+        );
+    }
+    if let Some(energy) = &design.held_out_energy {
+        let ProcessEnergy { usual_mw, busiest_mw, .. } = energy;
+        let _ = write!(text, "; held out {usual_mw:.4} mW ({busiest_mw:.4})");
+    }
+    text + ". Wires and the clock tree are not included, so areas and powers are lower bounds, and the clock is an upper bound."
 }
 
 fn figures_text(figures: &FidelityFigures) -> String {

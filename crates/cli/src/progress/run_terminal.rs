@@ -5,13 +5,15 @@ use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use foveate_explore::Synthesizer;
+use foveate_explore::{Synthesizer, TargetProcess};
 use foveate_playback::{RunHooks, RunProgress};
 use foveate_toolchain::{Cache, Interrupt, Tool, Toolchain};
 
 use super::Progress;
+use crate::args::ProcessArgs;
 use crate::error::CliError;
 use crate::interrupt;
+use crate::liberty::read_process;
 
 /// The progress of the command on the terminal, and the flag that Ctrl-C sets.
 pub(crate) struct RunTerminal {
@@ -44,6 +46,15 @@ impl RunTerminal {
         // A missing Yosys is reported before hours of measurements.
         toolchain.find(Tool::Yosys)?;
         Ok(Synthesizer { toolchain, cache: Cache::from_env()? })
+    }
+
+    /// Returns the process of the options, if there is one, whose designs are timed with OpenSTA.
+    pub(crate) fn process(&self, args: &ProcessArgs) -> Result<Option<TargetProcess>, CliError> {
+        let process = read_process(args)?;
+        if process.is_some() {
+            Toolchain::system().find(Tool::OpenSta)?;
+        }
+        Ok(process)
     }
 }
 

@@ -51,6 +51,8 @@ const CALLS: &[(&str, &str, &str)] = &[
     ("fit", "<INPUT>...", "fit ENDLESS"),
     ("fit", "--boxes", "fit scene:street --frames 8 --min-recall 50% --boxes ENDLESS"),
     ("fit", "--network", "fit scene:street --frames 8 --network ENDLESS"),
+    ("fit", "--liberty", "fit scene:street --frames 12 --liberty ENDLESS"),
+    ("fit", "--macros", "fit scene:street --frames 12 --liberty cells.lib --macros ENDLESS"),
     ("infer", "<MODEL>", "infer ENDLESS scene:street -o out"),
     ("infer", "[INPUT]...", "infer NETWORK ENDLESS -o out"),
     (

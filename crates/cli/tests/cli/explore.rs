@@ -111,7 +111,6 @@ fn mistakes_are_one_line() {
         ("--scale", "1/255"),
         ("--detect", "yolox"),
         ("--min-agreement", "90%"),
-        ("--cheapest", "area"),
         ("--look-at", "5"),
     ];
     for (option, value) in of_a_network {

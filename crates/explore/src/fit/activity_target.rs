@@ -91,7 +91,7 @@ mod tests {
     use foveate_toolchain::{Cache, Toolchain};
 
     use super::*;
-    use crate::{Constraints, Synthesizer};
+    use crate::{Constraints, CostObjective, Synthesizer};
 
     #[test]
     fn thresholds_meet_the_wanted_share() {
@@ -104,6 +104,8 @@ mod tests {
                 clock_hz: None,
                 target_active: Some(wanted),
                 boxes: &[],
+                cheapest: CostObjective::Area,
+                process: None,
                 network: None,
                 synthesizer: &Synthesizer {
                     toolchain: Toolchain::system(),

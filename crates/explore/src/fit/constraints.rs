@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use crate::cost::DesignArea;
 use crate::row::{bytes_per_frame, count_to_f64};
+use crate::target_process::{ProcessEnergy, ProcessFigures};
 
 /// The limits that a design must meet. Shares are 0..=1. A limit that is `None` is not checked.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -36,14 +37,23 @@ pub struct Constraints {
     pub max_array_lut: Option<u64>,
     /// The most block RAM of the array in units of `RAMB36`; a `RAMB18` is half of one.
     pub max_bram: Option<u64>,
+    /// The largest area of the array in the cells of a process, in square millimetres.
+    pub max_mm2: Option<f64>,
+    /// The largest power of the array in the cells of a process in milliwatts, in the busiest stretch of all
+    /// clips, if its clock stops when a frame is done.
+    pub max_mw: Option<f64>,
 }
+
+/// The excess of a figure that is not known, so that it exceeds every limit.
+const UNKNOWN_EXCESS: f64 = 64.0;
 
 /// A limit and the figure that was found.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ConstraintCheck {
     /// The name of the option that sets the limit, without its dashes.
     pub name: &'static str,
-    /// The figure. The PSNR of identical screens is infinite, which is null in JSON.
+    /// The figure. The PSNR of identical screens is infinite, and so is an area or a power that is not known;
+    /// in JSON they are null.
     pub value: f64,
     /// The limit: the largest or the least value of the figure.
     pub limit: f64,
@@ -92,6 +102,9 @@ impl ConstraintCheck {
         if self.holds {
             return 0.0;
         }
+        if self.value.is_infinite() {
+            return UNKNOWN_EXCESS;
+        }
         let (more, less) =
             if self.is_minimum { (self.limit, self.value) } else { (self.value, self.limit) };
         (more.max(LEAST) / less.max(LEAST)).log2().max(LEAST)
@@ -107,6 +120,9 @@ impl ConstraintCheck {
             }
             "min-psnr" if value.is_infinite() => "identical".to_owned(),
             "min-psnr" => format!("{value:.1} dB"),
+            "max-mm2" | "max-mw" if value.is_infinite() => "not known".to_owned(),
+            "max-mm2" => format!("{value:.3}"),
+            "max-mw" => format!("{value:.4}"),
             "min-fps" | "max-bram" => hundredths(value),
             _ => format!("{value:.0}"),
         };
@@ -122,6 +138,8 @@ impl ConstraintCheck {
             "max-lut" => "LUTs of a unit",
             "max-ff" => "flip-flops of a unit",
             "max-array-lut" => "LUTs of the array",
+            "max-mm2" => "mm2 of the array",
+            "max-mw" => "mW in the busiest stretch",
             _ => "RAMB36",
         };
         let clock = self.clock_mhz.map(|mhz| format!(" at {} MHz", hundredths(mhz)));
@@ -220,6 +238,22 @@ impl Constraints {
             limit.map(|limit| ConstraintCheck::check_at_most(name, value, count_to_f64(limit)))
         })
         .collect()
+    }
+}
+
+impl Constraints {
+    /// Returns the constraint on the area in a process. An area that is not known does not meet it.
+    #[must_use]
+    pub fn check_process_area(&self, process: Option<&ProcessFigures>) -> Option<ConstraintCheck> {
+        let mm2 = process.and_then(|process| process.mm2).unwrap_or(f64::INFINITY);
+        self.max_mm2.map(|limit| ConstraintCheck::check_at_most("max-mm2", mm2, limit))
+    }
+
+    /// Returns the constraint on power. A power that is not known does not meet it.
+    #[must_use]
+    pub fn check_power(&self, energy: Option<&ProcessEnergy>) -> Option<ConstraintCheck> {
+        let mw = energy.map_or(f64::INFINITY, |energy| energy.busiest_mw);
+        self.max_mw.map(|limit| ConstraintCheck::check_at_most("max-mw", mw, limit))
     }
 }
 

@@ -15,16 +15,17 @@ use foveate_camera::{
     Camera, CameraConfig, Decimal, DenoiseFilter, FLOW_RADII, FeatureKind, IrrelevantRendering,
     PeripheryConfig, ReferencePolicy, SUMMARY_BLOCKS, SpatialConfig,
 };
-use foveate_design::HardwareConfig;
 
+use super::FitRequest;
 use super::agreement_estimate::AgreementEstimate;
 use super::camera_search::CameraSearch;
 use super::clip_part::ClipPart;
 use super::constraints::ConstraintCheck;
+use super::cost_objective::CostObjective;
 use super::known_agreements::{KnownAgreements, known_or_measured};
 use super::network_agreement::NetworkAgreement;
-use super::network_goal::CostObjective;
 use super::possible_designs::{can_be_built, least_rough_cost};
+use super::rough_cost::RoughPricing;
 use super::threshold_scaling::scale_thresholds_by;
 use crate::ExploreError;
 
@@ -43,7 +44,7 @@ const MAX_FEWER_BITS: u32 = 3;
 pub(super) struct Descent<'s, 'a> {
     search: &'s mut CameraSearch<'a>,
     network: &'s NetworkAgreement<'a>,
-    hardware: &'s HardwareConfig,
+    request: &'s FitRequest<'s>,
     /// The agreements that were measured so far.
     known: KnownAgreements,
 }
@@ -52,9 +53,9 @@ impl<'s, 'a> Descent<'s, 'a> {
     pub(super) fn new(
         search: &'s mut CameraSearch<'a>,
         network: &'s NetworkAgreement<'a>,
-        hardware: &'s HardwareConfig,
+        request: &'s FitRequest<'s>,
     ) -> Self {
-        Self { search, network, hardware, known: KnownAgreements::default() }
+        Self { search, network, request, known: KnownAgreements::default() }
     }
 
     /// Descends from the task and from a camera that sends nearly all pixels, until no cheaper
@@ -123,16 +124,21 @@ impl<'s, 'a> Descent<'s, 'a> {
     fn with_costs(&self, configs: &[CameraConfig]) -> Result<Vec<(f64, Camera)>, ExploreError> {
         let mut cameras: Vec<Camera> = Vec::new();
         for camera in configs.iter().filter_map(|config| config.validate().ok()) {
-            if !cameras.contains(&camera) && can_be_built(camera.config(), self.hardware) {
+            if !cameras.contains(&camera)
+                && can_be_built(camera.config(), &self.request.task.hardware)
+            {
                 cameras.push(camera);
             }
         }
-        let costs = match self.network.goal.cheapest {
+        let pricing = RoughPricing::of_request(self.request);
+        let costs = match self.request.cheapest {
             CostObjective::Bytes => {
                 self.network.bytes_per_frame_of(&cameras, self.known.count())?
             }
-            CostObjective::Area => {
-                let cost = |camera: &Camera| least_rough_cost(camera.config(), self.hardware);
+            CostObjective::Area | CostObjective::Mm2 | CostObjective::Energy => {
+                let cost = |camera: &Camera| {
+                    least_rough_cost(camera.config(), &self.request.task.hardware, pricing)
+                };
                 cameras.iter().map(cost).collect()
             }
         };

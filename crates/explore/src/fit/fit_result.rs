@@ -12,10 +12,12 @@ use super::camera_search::{CameraSearch, SecondHalfResult};
 use super::constraints::{ConstraintCheck, all_met};
 use super::known_agreements::KnownAgreements;
 use super::network_goal::FittedNetwork;
-use super::synthesis::{SynthesizedDesign, SynthesizedDesigns};
-use super::{FitRequest, reasons};
+use super::synthesis::SynthesizedDesigns;
+use super::synthesized_design::SynthesizedDesign;
+use super::{CostObjective, FitRequest, reasons};
 use crate::cost::DesignArea;
 use crate::row::bytes_per_frame;
+use crate::target_process::{ProcessEnergy, ProcessFigures};
 
 /// The chosen design.
 #[derive(Clone, Debug, Serialize)]
@@ -32,8 +34,14 @@ pub struct FittedDesign {
     /// The frames per second, at the clock of the request or at the clock that is estimated from
     /// the netlist.
     pub speed: Option<FrameRate>,
-    /// The area.
+    /// The area on the FPGA.
     pub silicon: DesignArea,
+    /// The cost in the process, with the energy on the first halves; `None` without a process.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub process: Option<ProcessFigures>,
+    /// The energy in the process on the second halves.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub held_out_energy: Option<ProcessEnergy>,
     /// The bytes per frame that the camera sends, on the first half and on the second half.
     pub bytes_per_frame: (f64, f64),
     /// The figures on the first half, on which the design was fitted.
@@ -69,6 +77,8 @@ pub struct FitResult {
     /// The binding limits: without any one of them there would be a design. Empty if there is a
     /// design, or if every design exceeds more than one limit.
     pub binding: Vec<&'static str>,
+    /// The cost that was minimized.
+    pub cheapest: CostObjective,
     /// The agreement of a network, if one was given.
     pub network: Option<FittedNetwork>,
     /// The cheapest design, or the nearest one if no design meets all limits.
@@ -86,8 +96,8 @@ pub(super) struct FitFindings<'a> {
     /// The agreements of the network, if one was given.
     pub(super) agreements: KnownAgreements,
     pub(super) synthesized: SynthesizedDesigns,
-    /// The figures of the chosen camera on the second halves.
-    pub(super) second_half: SecondHalfResult,
+    /// The figures of the chosen camera on the second halves, and its energy, if it was measured.
+    pub(super) second_half: (SecondHalfResult, Option<ProcessEnergy>),
     pub(super) network: Option<FittedNetwork>,
     pub(super) halves: &'a ClipHalves,
 }
@@ -97,9 +107,12 @@ impl FitFindings<'_> {
     pub(super) fn into_result(self, request: &FitRequest<'_>) -> FitResult {
         let Self { target, search, agreements, synthesized, second_half, network, halves } = self;
         let chosen = synthesized.chosen();
+        let (second_half, energy) = second_half;
         let SecondHalfResult { figures: held_out, mut checks, problems: lost_frames } = second_half;
         checks.extend(request.constraints.check_speed(chosen.speed.as_ref()));
         checks.extend(request.constraints.check_area(&chosen.silicon));
+        checks.extend(request.constraints.check_process_area(chosen.process.as_ref()));
+        checks.extend(request.constraints.check_power(energy.as_ref()));
         let agreement = |network: &FittedNetwork| {
             ConstraintCheck::check_agreement(network.held_out.share, network.min_agreement)
         };
@@ -108,7 +121,7 @@ impl FitFindings<'_> {
         let mut why = agreements.reasons(&chosen.examined.config, least_agreement);
         why.extend(reasons::reason_lines(search, &synthesized, chosen, request));
         FitResult {
-            format_version: 3,
+            format_version: 4,
             frames: frames_of_halves(halves),
             task: DesignConfig { camera: search.task().clone(), ..DesignConfig::default() }
                 .to_toml(),
@@ -124,9 +137,13 @@ impl FitFindings<'_> {
             borne_out: all_met(&checks),
             binding: reasons::binding_limits(&synthesized),
             why,
+            cheapest: request.cheapest,
             problems: [halves.problems.clone(), lost_frames].concat(),
             network,
-            design: FittedDesign::new(chosen, held_out, checks),
+            design: FittedDesign {
+                held_out_energy: energy,
+                ..FittedDesign::new(chosen, held_out, checks)
+            },
         }
     }
 }
@@ -147,6 +164,8 @@ impl FittedDesign {
             clocks_per_frame: chosen.clocks_per_frame,
             speed: chosen.speed,
             silicon: chosen.silicon.clone(),
+            process: chosen.process.clone(),
+            held_out_energy: None,
             bytes_per_frame: (bytes(&fitted), bytes(&held_out)),
             fitted,
             fitted_held: chosen.checks.clone(),

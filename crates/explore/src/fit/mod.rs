@@ -25,6 +25,7 @@ mod agreement_estimate;
 mod camera_search;
 mod clip_part;
 mod constraints;
+mod cost_objective;
 mod descent;
 mod fit_result;
 mod known_agreements;
@@ -36,13 +37,16 @@ mod rough_cost;
 mod simplest_cameras;
 mod slower_designs;
 mod synthesis;
+mod synthesized_design;
 #[cfg(test)]
 mod test_clip;
 mod threshold_scaling;
 
+use std::ops::Range;
 use std::path::PathBuf;
 
 use foveate_design::{DesignConfig, HardwareConfig, LaneMemoryKind, OrganizationConfig};
+use foveate_energy::ActivityClip;
 use foveate_footage::InputOptions;
 use foveate_playback::{ClipHalves, RunHooks, RunMonitor};
 
@@ -50,6 +54,7 @@ use crate::ExploreError;
 use crate::cost::Synthesizer;
 use crate::footage::ExplorationFootage;
 use crate::progress::reading_progress;
+use crate::target_process::{EnergyClips, TargetProcess};
 use activity_target::task_for_target;
 use camera_search::CameraSearch;
 use clip_part::ClipPart;
@@ -62,8 +67,9 @@ use synthesis::synthesize_promising_designs;
 pub use activity_target::ActivityTarget;
 pub use agreement_estimate::AgreementEstimate;
 pub use constraints::{ConstraintCheck, Constraints};
+pub use cost_objective::CostObjective;
 pub use fit_result::{FitResult, FittedDesign};
-pub use network_goal::{CostObjective, FittedNetwork, NetworkGoal};
+pub use network_goal::{FittedNetwork, NetworkGoal};
 
 /// The least number of frames of a clip: each half needs a first frame, and one that can change.
 const MIN_FRAMES: u64 = 4;
@@ -87,6 +93,12 @@ pub struct FitRequest<'a> {
     /// The ground-truth boxes for [`Constraints::min_recall`]: one file or folder for all inputs,
     /// or one for each.
     pub boxes: &'a [PathBuf],
+    /// The cost that is minimized.
+    pub cheapest: CostObjective,
+    /// A process in whose cells designs are measured, too: their area, and their energy at
+    /// [`Constraints::min_fps`], or else at 30 frames per second. Without a clock, the clock of a design is
+    /// then the highest one in these cells.
+    pub process: Option<&'a TargetProcess>,
     /// A network that must agree, behind the camera, with its outputs for whole frames.
     pub network: Option<NetworkGoal<'a>>,
     /// The synthesizer, for areas.
@@ -94,6 +106,36 @@ pub struct FitRequest<'a> {
     /// The most designs that are synthesized. If none of them meets all limits, up to 16 more are
     /// synthesized, to find the nearest one and the binding limits.
     pub max_designs: usize,
+}
+
+impl FitRequest<'_> {
+    /// Returns true if the choice of a design depends on its energy.
+    fn is_decided_by_energy(&self) -> bool {
+        self.cheapest == CostObjective::Energy || self.constraints.max_mw.is_some()
+    }
+
+    /// Returns the least number of frames of a clip.
+    fn min_frames(&self) -> u64 {
+        let of_network = self.network.map_or(MIN_FRAMES, |_| ClipPart::MIN_FRAMES);
+        // Each half is a clip whose activity is measured.
+        let of_energy = self.process.map_or(MIN_FRAMES, |_| 2 * ActivityClip::MIN_FRAMES);
+        of_network.max(of_energy)
+    }
+
+    /// Returns the first halves and the second halves of all clips, on which energies are measured, if there
+    /// is a process.
+    fn energy_halves<'c>(
+        &'c self,
+        footage: &'c ExplorationFootage<'_>,
+        halves: &ClipHalves,
+    ) -> Option<[EnergyClips<'c>; 2]> {
+        let process = self.process?;
+        let of = |half: fn(u64, u64) -> Range<u64>| {
+            let frames = halves.frames.iter().map(|&(first, all)| half(first, all));
+            EnergyClips::new(process, &footage.clips, frames, self.constraints.min_fps)
+        };
+        Some([of(|first, _| 0..first), of(|first, all| first..all)])
+    }
 }
 
 /// Finds the cheapest design that meets the limits on the first half of the footage, or the nearest
@@ -110,11 +152,14 @@ pub fn fit(request: &FitRequest<'_>, hooks: &dyn RunHooks) -> Result<FitResult, 
     let request = &FitRequest { task: &task, ..request.clone() };
     let inputs = (request.inputs, request.boxes);
     let footage = ExplorationFootage::new(inputs, request.input, &request.task.camera, hooks)?;
-    let least_frames = if request.network.is_some() { ClipPart::MIN_FRAMES } else { MIN_FRAMES };
     let monitor = RunMonitor::of_stage(hooks, &reading_progress);
-    let halves = ClipHalves::count(&footage.clips, least_frames, &monitor)?;
+    let halves = ClipHalves::count(&footage.clips, request.min_frames(), &monitor)?;
+    if let Some([first, _]) = request.energy_halves(&footage, &halves) {
+        first.check()?;
+    }
     let (task, target) = task_for_target(request, &footage, &halves)?;
     let footage = footage.with_ideal(&task);
+    let energy_halves = request.energy_halves(&footage, &halves);
     let hardware = &request.task.hardware;
     let mut search = CameraSearch::new(request.constraints, &footage, &halves, &task, hardware)?;
     let network =
@@ -125,9 +170,18 @@ pub fn fit(request: &FitRequest<'_>, hooks: &dyn RunHooks) -> Result<FitResult, 
             search.run()?;
             KnownAgreements::default()
         }
-        Some(network) => Descent::new(&mut search, network, hardware).run()?,
+        Some(network) => Descent::new(&mut search, network, request).run()?,
     };
-    let synthesized = synthesize_promising_designs(&search, request, lane_memory, hooks)?;
+    let mut synthesized = synthesize_promising_designs(
+        &search,
+        (request, lane_memory),
+        energy_halves.as_ref().map(|[first, _]| first),
+        hooks,
+    )?;
+    let second_energy = match &energy_halves {
+        None => None,
+        Some(halves) => synthesized.chosen_mut().measure_halves(halves, request)?,
+    };
     let chosen = &synthesized.chosen().examined;
     let second_half = search.measure_second_half(chosen)?;
     let network = network.map(|network| {
@@ -135,6 +189,7 @@ pub fn fit(request: &FitRequest<'_>, hooks: &dyn RunHooks) -> Result<FitResult, 
     });
     let network = network.transpose()?;
     let (search, halves) = (&search, &halves);
+    let second_half = (second_half, second_energy);
     let findings =
         FitFindings { target, search, agreements, synthesized, second_half, network, halves };
     Ok(findings.into_result(request))

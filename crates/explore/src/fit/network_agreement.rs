@@ -132,7 +132,6 @@ impl<'a> NetworkAgreement<'a> {
             network: self.goal.path.display().to_string(),
             detector: self.goal.vision_options.detector.as_ref().map(ToString::to_string),
             min_agreement: self.goal.min_agreement,
-            cheapest: self.goal.cheapest,
             fitted,
             confirmed: match confirmed {
                 Some(confirmed) => confirmed,
@@ -200,7 +199,6 @@ mod tests {
     use foveate_inference::{Framing, PixelMapping, VisionOptions};
     use foveate_playback::SilentHooks;
 
-    use super::super::network_goal::CostObjective;
     use super::super::test_clip::{remove_frames, write_clip};
     use super::*;
 
@@ -223,7 +221,6 @@ mod tests {
             path: Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/denoiser.onnx")),
             vision_options: &vision_options,
             min_agreement: 0.9,
-            cheapest: CostObjective::Bytes,
             frames: 48,
         };
         let network = || NetworkAgreement::new(goal, &footage, &halves, &task).unwrap();

@@ -18,21 +18,9 @@ pub struct NetworkGoal<'a> {
     pub vision_options: &'a VisionOptions,
     /// The least agreement, 0..=1, defined as by `foveate infer --whole-frames`.
     pub min_agreement: f64,
-    /// The cost that is minimized.
-    pub cheapest: CostObjective,
     /// The most frames of each part of all clips that the network sees: of the part that cameras
     /// are searched by, of the part that confirms a camera, and of the second halves.
     pub frames: u64,
-}
-
-/// The cost of designs behind which a network agrees enough.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum CostObjective {
-    /// The bytes that leave the camera; area decides between cameras with equal bytes.
-    Bytes,
-    /// The area.
-    Area,
 }
 
 /// The agreement of a network behind the chosen design with the network on whole frames.
@@ -44,8 +32,6 @@ pub struct FittedNetwork {
     pub detector: Option<String>,
     /// The least agreement that was wanted, 0..=1.
     pub min_agreement: f64,
-    /// The cost that was minimized.
-    pub cheapest: CostObjective,
     /// The agreement on the frames of the search: the first two thirds of the first half.
     pub fitted: AgreementEstimate,
     /// The agreement on the rest of the first half, which had no part in the search and confirmed

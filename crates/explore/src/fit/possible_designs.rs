@@ -8,7 +8,7 @@ use foveate_design::{
 use foveate_estimate::most_clocks_per_frame;
 
 use super::FitRequest;
-use super::rough_cost::rough_cost;
+use super::rough_cost::RoughPricing;
 use crate::row::count_to_f64;
 
 /// The planned clock in Hz. It decides which folds are tried, because a design has no netlist and
@@ -27,6 +27,18 @@ pub(super) struct BuildBounds {
     is_planned: bool,
     /// The kind of lane memory to build. If it is `None`, each design follows its own rule.
     memory: Option<LaneMemoryKind>,
+    target: DesignTarget,
+}
+
+/// The technology for which designs are possible.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum DesignTarget {
+    /// An FPGA, on which a pipelined array is never cheaper than a serial one.
+    Fpga,
+    /// The cells of a process, in which a pipelined array may be the cheapest.
+    Process,
+    /// The same, but the energy decides, which is not known for organization `raster`.
+    ProcessWithEnergy,
 }
 
 impl BuildBounds {
@@ -34,7 +46,18 @@ impl BuildBounds {
     pub(super) fn of_request(request: &FitRequest<'_>, memory: Option<LaneMemoryKind>) -> Self {
         let hertz = count_to_f64(request.clock_hz.unwrap_or(PLANNED_HZ));
         let max_clocks = request.constraints.min_fps.map(|fps| most_clocks_per_frame(hertz, fps));
-        Self { max_clocks, is_planned: request.clock_hz.is_none(), memory }
+        let target = match request.process {
+            None => DesignTarget::Fpga,
+            Some(_) if request.is_decided_by_energy() => DesignTarget::ProcessWithEnergy,
+            Some(_) => DesignTarget::Process,
+        };
+        Self { max_clocks, is_planned: request.clock_hz.is_none(), memory, target }
+    }
+
+    /// Returns the bounds for any frame rate, at a planned clock, on any technology.
+    fn unlimited() -> Self {
+        let (memory, target) = (None, DesignTarget::Process);
+        Self { max_clocks: None, is_planned: true, memory, target }
     }
 
     /// Returns the bounds for any frame rate.
@@ -45,8 +68,8 @@ impl BuildBounds {
 
 /// Returns the possible designs of a camera. For each feed of a serial array these are the folds
 /// that are fast enough and may be the cheapest, and halvings of the deepest fold, because only a
-/// synthesis shows which one is the cheapest. If no fold is fast enough, the pipelined array is
-/// possible, and at a planned clock also fold 1. A raster core has the fewest pixels per clock that
+/// synthesis shows which one is the cheapest. If no fold is fast enough, or in the cells of a process, the
+/// pipelined array is possible, and at a planned clock also fold 1. A raster core has the fewest pixels per clock that
 /// are fast enough; at a planned clock it has the most, if none is fast enough.
 pub(super) fn possible_designs(
     camera: &CameraConfig,
@@ -56,11 +79,12 @@ pub(super) fn possible_designs(
     let (arrays, is_fast) = serial_arrays(camera, task_hardware, bounds);
     let of = |organization| match organization {
         Organization::Serial => arrays.clone(),
-        Organization::Pipelined if is_fast => Vec::new(),
+        Organization::Pipelined if is_fast && bounds.target == DesignTarget::Fpga => Vec::new(),
         Organization::Pipelined => {
             let array = possible_design(camera, task_hardware, OrganizationConfig::Pipelined);
             array.into_iter().collect()
         }
+        Organization::Raster if bounds.target == DesignTarget::ProcessWithEnergy => Vec::new(),
         Organization::Raster => {
             let core = |pixels| {
                 let pixels_per_clock = Some(pixels);
@@ -76,7 +100,7 @@ pub(super) fn possible_designs(
 
 /// Returns true if an organization can build the camera, at whatever speed.
 pub(super) fn can_be_built(camera: &CameraConfig, task_hardware: &HardwareConfig) -> bool {
-    let bounds = BuildBounds { max_clocks: None, is_planned: true, memory: None };
+    let bounds = BuildBounds::unlimited();
     !possible_designs(camera, task_hardware, bounds).is_empty()
 }
 
@@ -136,29 +160,53 @@ fn fewest_pixels_per_clock(
     cores.into_iter().find(is_fast).or(most)
 }
 
-/// Returns roughly the least share of the device that a camera takes, however it is built; infinite
-/// if it cannot be built.
-pub(super) fn least_rough_cost(camera: &CameraConfig, task_hardware: &HardwareConfig) -> f64 {
-    let bounds = BuildBounds { max_clocks: None, is_planned: true, memory: None };
-    let designs = possible_designs(camera, task_hardware, bounds);
-    designs.iter().map(rough_cost).fold(f64::INFINITY, f64::min)
+/// Returns roughly the least cost of a camera, however it is built; infinite if it cannot be built.
+pub(super) fn least_rough_cost(
+    camera: &CameraConfig,
+    task_hardware: &HardwareConfig,
+    pricing: RoughPricing,
+) -> f64 {
+    let designs = possible_designs(camera, task_hardware, BuildBounds::unlimited());
+    let costs = designs.iter().map(|design| pricing.cost(design));
+    costs.fold(f64::INFINITY, f64::min)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    const FPGA: BuildBounds = BuildBounds {
+        max_clocks: None,
+        is_planned: true,
+        memory: None,
+        target: DesignTarget::Fpga,
+    };
+
     /// Returns the pixels per clock of the raster designs among the designs of a camera of 64x48
     /// pixels, and whether one of them is pipelined.
     fn words(max_clocks: u64, planned: bool) -> (Vec<u32>, bool) {
         let task = DesignConfig::from_toml("[frame]\nwidth = 64\nheight = 48\n").unwrap();
-        let bounds =
-            BuildBounds { max_clocks: Some(max_clocks), is_planned: planned, memory: None };
+        let bounds = BuildBounds { max_clocks: Some(max_clocks), is_planned: planned, ..FPGA };
         let designs = possible_designs(&task.camera, &task.hardware, bounds);
         let of = |organization| designs.iter().filter(move |d| d.organization() == organization);
         let words =
             of(Organization::Raster).map(|d| d.as_raster().unwrap().pixels_per_clock()).collect();
         (words, of(Organization::Pipelined).next().is_some())
+    }
+
+    /// All organizations may be the cheapest in a process, but the energy of `raster` is not known.
+    #[test]
+    fn a_process_has_pipelined_arrays_and_energy_has_no_raster_cores() {
+        let task = DesignConfig::from_toml("[frame]\nwidth = 64\nheight = 48\n").unwrap();
+        let organizations = |target| {
+            let bounds = BuildBounds { max_clocks: Some(1_000_000), target, ..FPGA };
+            let designs = possible_designs(&task.camera, &task.hardware, bounds);
+            let has = |own| designs.iter().any(|design| design.organization() == own);
+            [Organization::Pipelined, Organization::Serial, Organization::Raster].map(has)
+        };
+        assert_eq!(organizations(DesignTarget::Fpga), [false, true, true]);
+        assert_eq!(organizations(DesignTarget::Process), [true, true, true]);
+        assert_eq!(organizations(DesignTarget::ProcessWithEnergy), [true, true, false]);
     }
 
     /// Only `serial` has `flow`, with regions of 4x4 pixels or more, and a reference that no region
@@ -168,8 +216,7 @@ mod tests {
         let designs = |more: &[&str]| {
             let flow = "spatial=[{feature='flow',radius=2}]";
             let task = DesignConfig::from_toml_with("", &[&[flow], more].concat()).unwrap();
-            let bounds = BuildBounds { max_clocks: None, is_planned: true, memory: None };
-            let designs = possible_designs(&task.camera, &task.hardware, bounds);
+            let designs = possible_designs(&task.camera, &task.hardware, FPGA);
             assert_eq!(can_be_built(&task.camera, &task.hardware), !designs.is_empty());
             designs.iter().map(Design::organization).collect::<Vec<_>>()
         };
@@ -186,7 +233,7 @@ mod tests {
     #[test]
     fn lanes_share_as_many_regions_as_may_be_cheapest_and_halvings_of_the_most() {
         let task = DesignConfig::from_toml("").unwrap();
-        let bounds = BuildBounds { max_clocks: Some(210_623), is_planned: true, memory: None };
+        let bounds = BuildBounds { max_clocks: Some(210_623), ..FPGA };
         let designs = possible_designs(&task.camera, &task.hardware, bounds);
         let arrays = designs.iter().filter_map(Design::as_serial);
         let folds =

@@ -8,13 +8,14 @@ use foveate_camera::{
     SpatialFeature,
 };
 use foveate_design::{Design, Organization};
-use foveate_estimate::{FrameRate, ramb36};
+use foveate_estimate::FrameRate;
 
 use super::FitRequest;
 use super::camera_search::{CameraSearch, ExaminedCamera};
 use super::constraints::ConstraintCheck;
 use super::simplest_cameras::filter_complexity;
-use super::synthesis::{SynthesizedDesign, SynthesizedDesigns};
+use super::synthesis::SynthesizedDesigns;
+use super::synthesized_design::SynthesizedDesign;
 
 /// Describes a design in a few words.
 pub(super) fn design_text(design: &Design) -> String {
@@ -65,8 +66,10 @@ pub(super) fn reason_lines(
         }
     }
     lines.extend(other_features(search, built, chosen));
-    let next =
-        built.designs().iter().skip(1).find(|other| other.meets_limits() && chosen.meets_limits());
+    let is_comparable = |other: &&SynthesizedDesign| {
+        other.meets_limits() && other.cost().is_finite() && chosen.meets_limits()
+    };
+    let next = built.designs().iter().skip(1).find(is_comparable);
     let is_next = |design: &Design| next.is_some_and(|next| next.design == *design);
     let others = other_organizations(built, chosen);
     lines.extend(
@@ -76,7 +79,7 @@ pub(super) fn reason_lines(
     );
     lines.extend(deeper_fold_line(chosen, request));
     lines.extend(next.map(|next| {
-        let (own, its) = (area_text(chosen), area_text(next));
+        let (own, its) = (chosen.cost_text(), next.cost_text());
         format!("next cheapest: {}: {its}, instead of {own}", design_text(&next.design))
     }));
     lines
@@ -223,18 +226,7 @@ fn deeper_fold_line(chosen: &SynthesizedDesign, request: &FitRequest<'_>) -> Opt
 /// Returns the cost of a design, and the limits that it misses.
 fn cost_text(candidate: &SynthesizedDesign) -> String {
     let broken = candidate.checks.iter().filter(|check| !check.holds).map(ConstraintCheck::text);
-    iter::once(area_text(candidate)).chain(broken).collect::<Vec<_>>().join("; ")
-}
-
-/// Returns the area of a design, and its share of the device, by which designs are chosen.
-fn area_text(candidate: &SynthesizedDesign) -> String {
-    let area = &candidate.silicon.array;
-    format!(
-        "{} LUTs and {} RAMB36, {:.3} % of the device",
-        area.lut_total_packed,
-        ramb36(area.bram18),
-        candidate.cost() * 100.0
-    )
+    iter::once(candidate.cost_text()).chain(broken).collect::<Vec<_>>().join("; ")
 }
 
 #[cfg(test)]

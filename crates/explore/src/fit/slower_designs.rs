@@ -5,6 +5,9 @@
 use foveate_design::{Design, Hardware};
 use foveate_estimate::{Area, FpgaDevice, FrameRate, most_clocks_per_frame};
 
+use super::cost_objective::CostObjective;
+use super::rough_cost::RoughPricing;
+use super::synthesized_design::SynthesizedDesign;
 use crate::cost::DesignArea;
 
 /// Returns the deeper folds of a serial design that are fast enough at the low end of its clock and
@@ -26,10 +29,25 @@ pub(super) fn slower_designs(design: &Design, speed: &FrameRate, min_fps: f64) -
     }
 }
 
-/// Returns the expected cost of a slower design, from the synthesis of the design that it is
+/// Returns the expected cost of a slower design from the design that it is derived from. In a process, the
+/// rough costs of the two have about the ratio of their costs.
+pub(super) fn expected_cost(
+    design: &Design,
+    from: &SynthesizedDesign,
+    pricing: RoughPricing,
+) -> f64 {
+    match from.objective {
+        CostObjective::Bytes | CostObjective::Area => expected_share(design, &from.silicon),
+        CostObjective::Mm2 | CostObjective::Energy => {
+            from.cost() * pricing.cost(design) / pricing.cost(&from.design)
+        }
+    }
+}
+
+/// Returns the expected share of the FPGA of a slower design, from the area of the design that it is
 /// derived from. Its lanes have the logic of that design's lanes, and their memory follows from the
 /// fold. Half the pixels per clock take half the logic.
-pub(super) fn expected_cost(design: &Design, silicon: &DesignArea) -> f64 {
+fn expected_share(design: &Design, silicon: &DesignArea) -> f64 {
     let DesignArea { unit, units, array, .. } = silicon;
     let area = match design.hardware() {
         Hardware::Pipelined(_) => *array,
@@ -106,7 +124,7 @@ mod tests {
         let unit = Area { lut_total_packed: 168, lut_memory_packed: 128, ..Area::default() };
         let array = Area { lut_total_packed: 300 + 8 * 168, ff: 80, ..Area::default() };
         let silicon = DesignArea { unit, units: 8, array, logic_levels: 7 };
-        let cost = |fold: u32| expected_cost(&eight.with_fold(fold).unwrap(), &silicon);
+        let cost = |fold: u32| expected_share(&eight.with_fold(fold).unwrap(), &silicon);
         let area =
             |lut_total_packed, bram18, ff| Area { lut_total_packed, bram18, ff, ..Area::default() };
         let device = FpgaDevice::xcvu9p();

@@ -45,6 +45,8 @@ fn run_with(
             clock_hz,
             target_active: None,
             boxes,
+            cheapest: CostObjective::Area,
+            process: None,
             network: None,
             synthesizer: &Synthesizer {
                 toolchain: Toolchain::system(),
@@ -77,11 +79,12 @@ fn fit_to_denoiser(
         clock_hz: Some(1_000_000),
         target_active: None,
         boxes: &[],
+        cheapest,
+        process: None,
         network: Some(NetworkGoal {
             path: Path::new(path),
             vision_options: &vision_options,
             min_agreement,
-            cheapest,
             frames: frames.into(),
         }),
         synthesizer: &Synthesizer {

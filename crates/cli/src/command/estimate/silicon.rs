@@ -8,17 +8,18 @@ use foveate_energy::{
     EnergyJob, EnergyReport, measure_energy, render_energy_markdown, render_energy_text,
 };
 use foveate_estimate::{
-    LibertyLibrary, SiliconJob, SiliconReport, gate_netlist, map_to_silicon,
-    render_silicon_markdown, render_silicon_text,
+    SiliconJob, SiliconReport, gate_netlist, map_to_silicon, render_silicon_markdown,
+    render_silicon_text,
 };
 use foveate_footage::InputOptions;
 use foveate_staging::{check_file, write_file};
 use serde::Serialize;
 
 use super::synthesis::SynthesisTools;
-use crate::args::{DEFAULT_LIBERTY, EstimateArgs};
+use crate::args::EstimateArgs;
 use crate::error::CliError;
 use crate::interrupt;
+use crate::liberty::{read_library, read_macros};
 use crate::output;
 use crate::progress::Progress;
 
@@ -40,8 +41,7 @@ pub(super) fn run(args: &EstimateArgs, flow: &SynthesisTools) -> Result<(), CliE
         let message = "--netlist is for one library; give --liberty once";
         return Err(CliError::Usage(message.to_owned()));
     }
-    let macros = args.macros.iter().map(|path| LibertyLibrary::read(path));
-    let macros: Vec<_> = macros.collect::<Result<_, _>>()?;
+    let macros = read_macros(&args.macros)?;
     if let Some(path) = &args.netlist {
         check_file(path)?;
     }
@@ -117,15 +117,4 @@ fn print_reports(args: &EstimateArgs, reports: &[ProcessReport]) -> Result<(), C
         std::iter::once(silicon).chain(energy).collect::<Vec<_>>().join("\n")
     };
     output::print_text(&reports.iter().map(render).collect::<Vec<_>>().join("\n"))
-}
-
-/// Reads a library. A missing file of the default library is explained.
-fn read_library(path: &Path) -> Result<LibertyLibrary, CliError> {
-    if path == Path::new(DEFAULT_LIBERTY) && !path.exists() {
-        return Err(CliError::Usage(format!(
-            "there is no `{DEFAULT_LIBERTY}`; `apt-get install qflow-tech-osu018` has it, or name the liberty \
-             file of another process"
-        )));
-    }
-    Ok(LibertyLibrary::read(path)?)
 }

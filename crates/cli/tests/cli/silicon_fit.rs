@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `foveate fit --liberty`: the cheapest design in the cells of a process.
+
+use std::path::Path;
+
+use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::{Tool, Toolchain};
+use serde_json::Value;
+
+use crate::common::{foveate, run_in, run_successfully};
+
+const LIBRARY: &str = "/usr/share/qflow/tech/osu018/osu018_stdcells.lib";
+/// A small task, of which few designs are synthesized.
+const TASK: [&str; 4] = ["clip", "--set", "region.size=4", "--max-flips=20%"];
+/// The number of frames of the clip.
+const FRAMES: u32 = 20;
+
+/// Returns true if the tools are there; where tools are required, the library must be there, too.
+fn is_ready() -> bool {
+    require_tools(&[Tool::Yosys, Tool::OpenSta])
+        && (Path::new(LIBRARY).exists()
+            || std::env::var_os("FOVEATE_REQUIRE_TOOLS").is_none_or(|_| panic!("no {LIBRARY}")))
+        && Path::new(LIBRARY).exists()
+}
+
+/// Writes a clip of 8x8 pixels, in which a square moves faster and faster over a ramp.
+fn write_clip(folder: &Path) {
+    std::fs::create_dir(folder.join("clip")).unwrap();
+    for number in 0..FRAMES {
+        let left = number * number / 8 % 6;
+        let pixel = |x: u32, y: u32| {
+            let is_inside = (left..left + 3).contains(&x) && (2..5).contains(&y);
+            if is_inside { 200 } else { u8::try_from(40 + 6 * x + 4 * y).unwrap() }
+        };
+        let pixels = (0..8).flat_map(|y| (0..8).map(move |x| pixel(x, y)));
+        let file = [b"P5\n8 8\n255\n".to_vec(), pixels.collect()].concat();
+        std::fs::write(folder.join(format!("clip/{number:02}.pgm")), file).unwrap();
+    }
+}
+
+/// Fits a design to the clip. Returns the result and the exit code.
+fn fit(folder: &Path, args: &[&str]) -> (Value, i32) {
+    let command = [&["fit", "--json", "--quiet", "-o", "design.toml"], &TASK[..], args];
+    let run = run_in(folder, &command.concat());
+    let result = serde_json::from_str(&run.stdout);
+    (result.unwrap_or_else(|error| panic!("{error}: {}", run.stderr)), run.code)
+}
+
+fn number(value: &Value, pointer: &str) -> f64 {
+    value.pointer(pointer).and_then(Value::as_f64).unwrap_or_else(|| panic!("{pointer}: {value}"))
+}
+
+/// Returns the constraint of that name on the first halves and on the second halves.
+fn checks<'a>(found: &'a Value, name: &str) -> [&'a Value; 2] {
+    ["fitted_held", "held_out_held"].map(|half| {
+        let checks = found["design"][half].as_array().unwrap();
+        checks.iter().find(|check| check["name"] == name).unwrap_or_else(|| panic!("{found}"))
+    })
+}
+
+/// The figures are those that `estimate` has for the same design on the first half of the clip.
+#[test]
+fn the_cheapest_design_in_a_process_has_the_figures_of_estimate() {
+    if !is_ready() {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    write_clip(dir.path());
+    let (found, code) = fit(
+        dir.path(),
+        &[
+            "--cheapest",
+            "energy",
+            "--max-mw",
+            "50",
+            "--max-mm2",
+            "50",
+            "--max-syntheses",
+            "1",
+            "--liberty",
+        ],
+    );
+    assert_eq!(code, 0, "{found}");
+    let estimate = ["estimate", "--json", "--quiet", "--config", "design.toml", "--liberty"];
+    let activity = ["--activity", "clip", "--max-frames", "10"];
+    let report = run_successfully(dir.path(), &[&estimate[..], &activity].concat());
+    let report: Value = serde_json::from_str(&report).unwrap();
+    let process = &found["design"]["process"];
+    let equal = |one: f64, other: f64| assert!((one - other).abs() <= 1e-9 * one, "{one} {other}");
+    equal(number(process, "/unit_um2"), number(&report, "/unit/cells/area_um2"));
+    equal(number(process, "/mm2"), number(&report, "/array/area_um2") / 1e6);
+    equal(
+        number(process, "/energy/usual_mw"),
+        number(&report, "/energy/stretches/1/stopped_clock_mw"),
+    );
+    equal(
+        number(process, "/energy/busiest_mw"),
+        number(&report, "/energy/stretches/2/stopped_clock_mw"),
+    );
+    let parts = ["clock", "memory", "flip_flops", "logic"];
+    let parts = parts.map(|part| format!("/energy/stretches/1/region_nj_per_frame/{part}"));
+    let sum: f64 = parts.iter().map(|part| number(&report, part)).sum();
+    equal(number(process, "/energy/nj_per_region"), sum);
+    let slack = number(&report, "/path/mhz") - number(process, "/clock_mhz");
+    assert!((0.0..0.1).contains(&slack), "{slack}");
+    // The clock of the process is the clock of the design.
+    assert_eq!(found["design"]["speed"]["clock_mhz"], process["clock_mhz"]);
+    let [fitted, held_out] = checks(&found, "max-mw");
+    assert_eq!(fitted["value"], process["energy"]["busiest_mw"]);
+    assert_eq!(held_out["value"], found["design"]["held_out_energy"]["busiest_mw"]);
+    assert_ne!(fitted["value"], held_out["value"], "they are of different frames");
+    assert_eq!(checks(&found, "max-mm2").map(|check| &check["value"]), [&process["mm2"]; 2]);
+}
+
+/// A lane is smaller than the RPUs of its regions, and takes more energy, because it needs more clocks.
+#[test]
+fn the_cheapest_design_is_that_of_the_wanted_cost() {
+    if !is_ready() {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    write_clip(dir.path());
+    let costs = |(cheapest, syntheses)| {
+        let most = ["--max-syntheses", syntheses];
+        let (found, _) =
+            fit(dir.path(), &[&["--cheapest", cheapest][..], &most, &["--liberty"]].concat());
+        assert_eq!(
+            (&found["feasible"], &found["cheapest"]),
+            (&Value::Bool(true), &cheapest.into())
+        );
+        let process = &found["design"]["process"];
+        [number(process, "/mm2"), number(process, "/energy/usual_mw")]
+    };
+    let [smallest, coolest] = [("mm2", "3"), ("energy", "1")].map(costs);
+    assert!(smallest[0] < coolest[0] && coolest[1] < smallest[1], "{smallest:?} {coolest:?}");
+}
+
+#[test]
+fn limits_of_a_process_can_be_binding() {
+    if !is_ready() {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    write_clip(dir.path());
+    let limits = [("max-mw", "0.000001", "energy"), ("max-mm2", "0.001", "mm2")];
+    for (option, limit, cheapest) in limits {
+        let limited = format!("--{option}={limit}");
+        let args = ["--cheapest", cheapest, &limited, "--max-syntheses", "1", "--liberty"];
+        let (found, code) = fit(dir.path(), &args);
+        assert_eq!((code, &found["feasible"]), (1, &Value::Bool(false)), "{found}");
+        assert_eq!(found["binding"], serde_json::json!([option]));
+        let [fitted, held_out] = checks(&found, option);
+        assert_eq!(
+            (&fitted["holds"], &held_out["holds"]),
+            (&Value::Bool(false), &Value::Bool(false))
+        );
+        let value = number(fitted, "/value");
+        assert!(value > limit.parse().unwrap(), "{value}");
+    }
+}
+
+#[test]
+fn an_option_names_the_option_that_it_needs() {
+    let dir = tempfile::tempdir().unwrap();
+    let refused = |args: &[&str], parts: &[&str]| {
+        let run = run_in(dir.path(), &[&["fit", "scene:street"], args].concat());
+        assert_eq!(run.code, 2, "{args:?}: {}", run.stderr);
+        for part in parts {
+            assert!(run.stderr.contains(part), "{args:?}: {}", run.stderr);
+        }
+    };
+    refused(&["--cheapest", "bytes"], &["--cheapest bytes", "--network"]);
+    refused(&["--cheapest", "mm2"], &["--cheapest mm2", "--liberty"]);
+    refused(&["--cheapest", "energy"], &["--cheapest energy", "--liberty"]);
+    refused(&["--max-mm2", "5"], &["required arguments", "--liberty"]);
+    refused(&["--max-mw", "5"], &["required arguments", "--liberty"]);
+    refused(&["--macros", "m.lib"], &["required arguments", "--liberty"]);
+    refused(&["--liberty", LIBRARY, "--max-mw", "0"], &["a number above 0"]);
+    refused(&["--liberty", LIBRARY, "--max-mm2", "inf"], &["a number above 0"]);
+    refused(&["--liberty", "none.lib"], &["cannot read the library `none.lib`"]);
+    if !is_ready() {
+        return;
+    }
+    // Each half needs five frames.
+    refused(&["--frames", "9", "--liberty", LIBRARY], &["9 frames", "10"]);
+    let mut missing = foveate(&["fit", "scene:street", "--liberty", LIBRARY]);
+    let missing = missing.env("FOVEATE_STA", "no-such-sta").output().unwrap();
+    let error = String::from_utf8_lossy(&missing.stderr);
+    assert!(error.contains("no-such-sta"), "{error}");
+    assert!(Toolchain::system().find(Tool::OpenSta).is_ok());
+}

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The cost of designs in the cells of a process: area, clock and energy.
+
+use std::ops::Range;
+use std::sync::atomic::Ordering;
+
+use foveate_design::{Design, Organization};
+use foveate_energy::{ActivityClip, EnergyJob, EnergyReport, StretchEnergy, measure_energy};
+use foveate_estimate::{LibertyLibrary, SiliconJob, SiliconReport, map_to_silicon};
+use foveate_playback::{PlaybackError, RunClips};
+use serde::Serialize;
+
+use crate::row::count_to_f64;
+use crate::{ExploreError, Synthesizer};
+
+/// The frames per second for which powers are given if no rate is wanted.
+const DEFAULT_FRAME_RATE: f64 = 30.0;
+
+/// A process in whose cells designs are measured.
+#[derive(Clone, Debug)]
+pub struct TargetProcess {
+    /// The library of cells.
+    pub library: LibertyLibrary,
+    /// The libraries of memory macros, of the same voltage.
+    pub macros: Vec<LibertyLibrary>,
+    /// The largest memory in bits that becomes flip-flops.
+    pub memory_limit: u64,
+}
+
+/// The cost of a design in a process. Wires, the clock tree and other corners are not included, so areas
+/// and powers are lower bounds, and the clock is an upper bound.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ProcessFigures {
+    /// The name of the library.
+    pub library: String,
+    /// The area of one RPU, lane or core in square micrometres, without memory macros.
+    pub unit_um2: f64,
+    /// The area of the array with its memory macros in square millimetres; `None` if a memory has no macro.
+    pub mm2: Option<f64>,
+    /// The bits of the memories for which no macro fits.
+    pub memory_bits_without_macro: u64,
+    /// The highest clock in MHz, rounded down to a tenth.
+    pub clock_mhz: f64,
+    /// The energy; `None` if it was not measured, or for organization `raster`.
+    pub energy: Option<ProcessEnergy>,
+}
+
+/// The energy of a design in a process on some clips, if its clock stops when a frame is done.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct ProcessEnergy {
+    /// The frames per second for which powers are given.
+    pub frame_rate: f64,
+    /// The energy of a region in a frame in nanojoules, without leakage: the mean over the usual stretches of
+    /// all clips.
+    pub nj_per_region: f64,
+    /// The power of the array in milliwatts: the mean over the usual stretches of all clips.
+    pub usual_mw: f64,
+    /// The power of the array in milliwatts in the busiest stretch of all clips.
+    pub busiest_mw: f64,
+}
+
+impl ProcessFigures {
+    /// Returns the figures of a report, without energy.
+    pub(crate) fn from_report(report: &SiliconReport) -> Self {
+        let memory_bits_without_macro = report.memory.bits_without_macro;
+        Self {
+            library: report.library.name.clone(),
+            unit_um2: report.unit.cells.area_um2,
+            mm2: (memory_bits_without_macro == 0).then(|| report.area_mm2()),
+            memory_bits_without_macro,
+            clock_mhz: (report.path.mhz * 10.0).floor() / 10.0,
+            energy: None,
+        }
+    }
+}
+
+impl ProcessEnergy {
+    /// Returns the energy over several clips; `None` without clips.
+    fn of_clips(reports: &[EnergyReport]) -> Option<Self> {
+        let frame_rate = reports.first()?.frame_rate;
+        // The stretches of a report are ordered by their activity: a quiet, a usual and the busiest one.
+        let usual: Vec<&StretchEnergy> =
+            reports.iter().map(|report| &report.stretches[1]).collect();
+        let mean = |take: fn(&StretchEnergy) -> f64| {
+            usual.iter().map(|stretch| take(stretch)).sum::<f64>()
+                / count_to_f64(usual.len() as u64)
+        };
+        let all = reports.iter().flat_map(|report| &report.stretches);
+        Some(Self {
+            frame_rate,
+            nj_per_region: mean(|stretch| stretch.region_nj_per_frame.total()),
+            usual_mw: mean(|stretch| stretch.stopped_clock_mw),
+            busiest_mw: all.map(|stretch| stretch.stopped_clock_mw).fold(0.0, f64::max),
+        })
+    }
+}
+
+/// The clips on which the energy of designs is measured.
+pub(crate) struct EnergyClips<'a> {
+    pub(crate) process: &'a TargetProcess,
+    pub(crate) clips: Vec<ActivityClip<'a>>,
+    /// The frames per second for which powers are given.
+    pub(crate) frame_rate: f64,
+}
+
+impl<'a> EnergyClips<'a> {
+    /// Makes the clips from a run. `frames` has the numbers of the frames of each clip that count.
+    pub(crate) fn new(
+        process: &'a TargetProcess,
+        clips: &'a RunClips,
+        frames: impl Iterator<Item = Range<u64>>,
+        frame_rate: Option<f64>,
+    ) -> Self {
+        let clip = |(clip, frames)| ActivityClip { clips, clip, frames };
+        let clips = frames.enumerate().map(clip).collect();
+        Self { process, clips, frame_rate: frame_rate.unwrap_or(DEFAULT_FRAME_RATE) }
+    }
+
+    /// Refuses data sets, whose images have no activity in time.
+    pub(crate) fn check(&self) -> Result<(), ExploreError> {
+        Ok(self.clips.iter().try_for_each(ActivityClip::check)?)
+    }
+
+    /// Returns the energy of a design for frames of the clips' size. `report` is its area in the process. The
+    /// energy of organization `raster` cannot be measured.
+    pub(crate) fn measure(
+        &self,
+        synthesizer: &Synthesizer,
+        design: &Design,
+        report: &SiliconReport,
+    ) -> Result<Option<ProcessEnergy>, ExploreError> {
+        match design.organization() {
+            Organization::Raster => return Ok(None),
+            Organization::Pipelined | Organization::Serial => {}
+        }
+        let Synthesizer { toolchain, cache } = synthesizer;
+        let measure = |clip: &ActivityClip<'_>| -> Result<EnergyReport, ExploreError> {
+            let job = EnergyJob::record(clip, design, self.frame_rate, toolchain.cancel_flag())?;
+            let inputs = (&self.process.library, report, report.path.mhz);
+            Ok(measure_energy(toolchain, cache, &job, inputs)?)
+        };
+        let reports = self.clips.iter().map(measure).collect::<Result<Vec<_>, _>>();
+        if toolchain.cancel_flag().load(Ordering::Relaxed) {
+            return Err(PlaybackError::Interrupted.into());
+        }
+        Ok(ProcessEnergy::of_clips(&reports?))
+    }
+}
+
+impl TargetProcess {
+    /// Maps a design to the cells, and times it.
+    pub(crate) fn map_design(
+        &self,
+        synthesizer: &Synthesizer,
+        design: &Design,
+    ) -> Result<SiliconReport, ExploreError> {
+        let job = SiliconJob::for_design(design, self.memory_limit);
+        let inputs = (&self.library, self.macros.as_slice());
+        Ok(map_to_silicon(&synthesizer.toolchain, &synthesizer.cache, &job, inputs)?)
+    }
+}
