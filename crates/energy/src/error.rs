@@ -56,7 +56,7 @@ pub enum EnergyError {
     #[error(
         "the netlist differs from the model in port `{port}`, from region {region} on, while frame {frame} of a \
          stretch is taken: it has {found}, and the model has {expected}. So no energy is given; `foveate cosim` with \
-         the netlist of --netlist shows more"
+         the netlist of `foveate estimate --netlist` shows more"
     )]
     Mismatch {
         /// The first region of the unit.

@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The cost and speed of a design: its area and its estimated clock from Yosys, and its cells in a
-//! process, once for every distinct RTL.
+//! The cost and speed of a design: its area and its estimated clock from Yosys, once for every
+//! distinct RTL.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use foveate_design::Design;
 use foveate_emit::Top;
-use foveate_estimate::{Area, EstimateJob, FrameRate, SiliconReport, estimate};
+use foveate_estimate::{Area, EstimateJob, FrameRate, estimate};
 use foveate_playback::{PlaybackError, RunHooks, RunProgress};
 use foveate_toolchain::{Cache, Toolchain, sources_sha256};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::ExploreError;
-use crate::progress::{mapping_progress, synthesis_progress};
-use crate::target_process::TargetProcess;
+use crate::progress::synthesis_progress;
 
 /// The area of a design, as Yosys estimates it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -63,7 +62,7 @@ impl<T: Send> ResultsByRtl<T> {
     ///
     /// # Errors
     /// Fails if `hooks` cancels.
-    fn compute<'a>(
+    pub(crate) fn compute<'a>(
         designs: impl Iterator<Item = &'a Design>,
         hooks: &dyn RunHooks,
         stage: fn(usize, usize) -> RunProgress<'static>,
@@ -124,21 +123,6 @@ impl Synthesizer {
     ) -> Result<ResultsByRtl<SynthesisResult>, ExploreError> {
         ResultsByRtl::compute(designs, hooks, synthesis_progress, |design| {
             self.synthesize_design(design)
-        })
-    }
-
-    /// Maps every distinct RTL of some designs to the cells of a process in parallel.
-    ///
-    /// # Errors
-    /// Fails if `hooks` cancels.
-    pub(crate) fn map_designs<'a>(
-        &self,
-        process: &TargetProcess,
-        designs: impl Iterator<Item = &'a Design>,
-        hooks: &dyn RunHooks,
-    ) -> Result<ResultsByRtl<SiliconReport>, ExploreError> {
-        ResultsByRtl::compute(designs, hooks, mapping_progress, |design| {
-            process.map_design(self, design)
         })
     }
 

@@ -47,6 +47,12 @@ pub enum ExploreError {
     /// The task of a fit has zones, whose thresholds no search changes.
     #[error("a fit does not search the thresholds of zones; leave the table [zones] out")]
     Zones,
+    /// A cost or a limit is a figure of a process, and there is none.
+    #[error("{figure} is a figure of a process; give its cells with --liberty")]
+    NoProcess {
+        /// The cost or the limit.
+        figure: &'static str,
+    },
     /// There are no objects, so no share of them can be sent.
     #[error(
         "the {half} half of the clips has no object to count, so --min-recall cannot be checked; \

@@ -6,12 +6,14 @@ use std::sync::atomic::Ordering;
 
 use foveate_design::{Design, Organization};
 use foveate_energy::{ActivityClip, EnergyJob, EnergyReport, StretchEnergy, measure_energy};
-use foveate_estimate::{LibertyLibrary, SiliconJob, SiliconReport, map_to_silicon};
-use foveate_playback::{PlaybackError, RunClips};
+use foveate_estimate::{LibertyLibrary, SiliconJob, SiliconReport, count_to_f64, map_to_silicon};
+use foveate_playback::{PlaybackError, RunClips, RunHooks};
+use rayon::prelude::*;
 use serde::Serialize;
 
-use crate::row::count_to_f64;
-use crate::{ExploreError, Synthesizer};
+use crate::ExploreError;
+use crate::cost::{ResultsByRtl, Synthesizer};
+use crate::progress::mapping_progress;
 
 /// The frames per second for which powers are given if no rate is wanted.
 const DEFAULT_FRAME_RATE: f64 = 30.0;
@@ -41,7 +43,8 @@ pub struct ProcessFigures {
     pub memory_bits_without_macro: u64,
     /// The highest clock in MHz, rounded down to a tenth.
     pub clock_mhz: f64,
-    /// The energy; `None` if it was not measured, or for organization `raster`.
+    /// The energy; `None` if it was not measured, for organization `raster`, or if a memory is too large for
+    /// flip-flops.
     pub energy: Option<ProcessEnergy>,
 }
 
@@ -122,7 +125,8 @@ impl<'a> EnergyClips<'a> {
     }
 
     /// Returns the energy of a design for frames of the clips' size. `report` is its area in the process. The
-    /// energy of organization `raster` cannot be measured.
+    /// energy of a design whose memories are not flip-flops cannot be measured, nor that of organization
+    /// `raster`.
     pub(crate) fn measure(
         &self,
         synthesizer: &Synthesizer,
@@ -131,6 +135,9 @@ impl<'a> EnergyClips<'a> {
     ) -> Result<Option<ProcessEnergy>, ExploreError> {
         match design.organization() {
             Organization::Raster => return Ok(None),
+            Organization::Pipelined | Organization::Serial if report.memory.bits > 0 => {
+                return Ok(None);
+            }
             Organization::Pipelined | Organization::Serial => {}
         }
         let Synthesizer { toolchain, cache } = synthesizer;
@@ -139,7 +146,7 @@ impl<'a> EnergyClips<'a> {
             let inputs = (&self.process.library, report, report.path.mhz);
             Ok(measure_energy(toolchain, cache, &job, inputs)?)
         };
-        let reports = self.clips.iter().map(measure).collect::<Result<Vec<_>, _>>();
+        let reports = self.clips.par_iter().map(measure).collect::<Result<Vec<_>, _>>();
         if toolchain.cancel_flag().load(Ordering::Relaxed) {
             return Err(PlaybackError::Interrupted.into());
         }
@@ -148,14 +155,21 @@ impl<'a> EnergyClips<'a> {
 }
 
 impl TargetProcess {
-    /// Maps a design to the cells, and times it.
-    pub(crate) fn map_design(
+    /// Maps every distinct RTL of some designs to the cells in parallel, and times it.
+    ///
+    /// # Errors
+    /// Fails if `hooks` cancels.
+    pub(crate) fn map_designs<'a>(
         &self,
         synthesizer: &Synthesizer,
-        design: &Design,
-    ) -> Result<SiliconReport, ExploreError> {
-        let job = SiliconJob::for_design(design, self.memory_limit);
-        let inputs = (&self.library, self.macros.as_slice());
-        Ok(map_to_silicon(&synthesizer.toolchain, &synthesizer.cache, &job, inputs)?)
+        designs: impl Iterator<Item = &'a Design>,
+        hooks: &dyn RunHooks,
+    ) -> Result<ResultsByRtl<SiliconReport>, ExploreError> {
+        let Synthesizer { toolchain, cache } = synthesizer;
+        ResultsByRtl::compute(designs, hooks, mapping_progress, |design| {
+            let job = SiliconJob::for_design(design, self.memory_limit);
+            let inputs = (&self.library, self.macros.as_slice());
+            Ok(map_to_silicon(toolchain, cache, &job, inputs)?)
+        })
     }
 }

@@ -151,7 +151,8 @@ pub(crate) struct ConstraintArgs {
     /// clock
     #[arg(long, value_name = "RATE", default_value = "30", value_parser = FramesPerSecond::parse)]
     pub(crate) min_fps: FramesPerSecond,
-    /// Clock of the array; without it, the clock of each design is estimated from its netlist
+    /// Clock of the array; without it, the clock of each design is estimated from its netlist. With
+    /// --liberty, a design has at most the highest clock in these cells
     #[arg(long, value_name = "FREQUENCY", value_parser = ClockFrequency::parse)]
     pub(crate) clock: Option<ClockFrequency>,
     /// First set the thresholds so that this share of the regions is active

@@ -124,7 +124,8 @@ fn text(args: &FitArgs, found: &FitResult, width: usize) -> String {
     );
     paragraph(&mut text, &silicon, width, "  ");
     if let Some(process) = &design.process {
-        paragraph(&mut text, &process_text(design, process), width, "  ");
+        let line = process_text(design, process);
+        paragraph(&mut text, &line, width, "  ");
     }
     let halves = [
         ("fitted", &design.fitted, &design.fitted_held),
@@ -230,13 +231,15 @@ fn process_text(design: &FittedDesign, process: &ProcessFigures) -> String {
     let (library, unit, clock) = (&process.library, process.unit_um2, process.clock_mhz);
     let mut text =
         format!("in {library}: {area}, {unit:.0} um2 per {name}, at most {clock:.1} MHz");
-    if let Some(energy) = &process.energy {
-        let ProcessEnergy { frame_rate, nj_per_region, usual_mw, busiest_mw } = energy;
-        let _ = write!(
-            text,
-            ", {usual_mw:.4} mW at {frame_rate} frames/s ({busiest_mw:.4} in the busiest stretch), \
-             {nj_per_region:.3} nJ per region and frame"
-        );
+    match &process.energy {
+        None => text += ", energy not measured, because memories are not flip-flops",
+        Some(ProcessEnergy { frame_rate, nj_per_region, usual_mw, busiest_mw }) => {
+            let _ = write!(
+                text,
+                ", {usual_mw:.4} mW at {frame_rate} frames/s ({busiest_mw:.4} in the busiest stretch), \
+                 {nj_per_region:.3} nJ per region and frame"
+            );
+        }
     }
     if let Some(energy) = &design.held_out_energy {
         let ProcessEnergy { usual_mw, busiest_mw, .. } = energy;

@@ -135,6 +135,32 @@ fn the_cheapest_design_is_that_of_the_wanted_cost() {
     assert!(smallest[0] < coolest[0] && coolest[1] < smallest[1], "{smallest:?} {coolest:?}");
 }
 
+/// A lane keeps its regions in a memory, which is neither flip-flops nor a macro here. No clock is above the
+/// highest one of the cells.
+#[test]
+fn a_design_with_a_large_memory_has_no_energy_and_no_clock_beyond_its_cells() {
+    if !is_ready() {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    write_clip(dir.path());
+    let args = ["--max-syntheses", "2", "--clock", "9GHz", "--memory-limit", "190", "--liberty"];
+    let (found, _) = fit(dir.path(), &args);
+    let design = &found["design"];
+    assert!(design["toml"].as_str().unwrap().contains("\"serial\""), "{found}");
+    assert_eq!(found["feasible"], Value::Bool(true));
+    let process = &design["process"];
+    assert_eq!((&process["energy"], &process["mm2"]), (&Value::Null, &Value::Null));
+    assert_eq!(design.get("held_out_energy"), None);
+    assert!(number(process, "/memory_bits_without_macro") > 190.0);
+    assert_eq!(design["speed"]["clock_mhz"], process["clock_mhz"]);
+    // A power that is not known exceeds its limit, once.
+    let limited = [&args[..], &["--max-mw", "50"]].concat();
+    let (found, _) = fit(dir.path(), &limited);
+    let checks = found["design"]["fitted_held"].as_array().unwrap();
+    assert_eq!(checks.iter().filter(|check| check["name"] == "max-mw").count(), 1, "{found}");
+}
+
 #[test]
 fn limits_of_a_process_can_be_binding() {
     if !is_ready() {

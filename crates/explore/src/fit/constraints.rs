@@ -27,7 +27,7 @@ pub struct Constraints {
     /// ground-truth boxes.
     pub min_recall: Option<f64>,
     /// The least number of frames per second at the clock; at the low end of the range of an
-    /// estimated clock.
+    /// estimated clock. A clock in the cells of a process has no range.
     pub min_fps: Option<f64>,
     /// The most LUTs of one RPU or lane, including those used as memory.
     pub max_lut: Option<u64>,
@@ -121,8 +121,7 @@ impl ConstraintCheck {
             "min-psnr" if value.is_infinite() => "identical".to_owned(),
             "min-psnr" => format!("{value:.1} dB"),
             "max-mm2" | "max-mw" if value.is_infinite() => "not known".to_owned(),
-            "max-mm2" => format!("{value:.3}"),
-            "max-mw" => format!("{value:.4}"),
+            "max-mm2" | "max-mw" => significant(value),
             "min-fps" | "max-bram" => hundredths(value),
             _ => format!("{value:.0}"),
         };
@@ -151,6 +150,14 @@ impl ConstraintCheck {
         };
         format!("{what} {}{clock} ({side} {})", number(self.value), number(self.limit))
     }
+}
+
+/// Formats a number with four significant digits, or all digits before the point.
+fn significant(value: f64) -> String {
+    let text = format!("{value:.3e}");
+    let exponent = text.split('e').nth(1).and_then(|exponent| exponent.parse::<i32>().ok());
+    let decimals = usize::try_from(3 - exponent.unwrap_or(0)).unwrap_or(0);
+    format!("{value:.decimals$}")
 }
 
 /// Formats a number with at most two digits after the decimal point.
@@ -239,9 +246,7 @@ impl Constraints {
         })
         .collect()
     }
-}
 
-impl Constraints {
     /// Returns the constraint on the area in a process. An area that is not known does not meet it.
     #[must_use]
     pub fn check_process_area(&self, process: Option<&ProcessFigures>) -> Option<ConstraintCheck> {
@@ -260,6 +265,12 @@ impl Constraints {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn small_and_large_figures_have_four_digits() {
+        let texts = [0.000_012_34, 0.076_643, 10.841, 12_345.6, 0.0].map(significant);
+        assert_eq!(texts, ["0.00001234", "0.07664", "10.84", "12346", "0.000"]);
+    }
 
     #[test]
     fn excess_is_nothing_when_it_holds_and_grows_with_distance() {

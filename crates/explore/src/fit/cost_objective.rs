@@ -4,14 +4,13 @@
 use serde::Serialize;
 
 /// The cost of designs that a fit minimizes among those that meet the limits.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum CostObjective {
     /// The bytes that leave the camera; the share of the FPGA decides between cameras with equal bytes. It
     /// needs a network.
     Bytes,
     /// The share of the FPGA, a VCU118, that the array takes.
-    #[default]
     Area,
     /// The area of the array in the cells of a process, in square millimetres. It needs a process.
     Mm2,

@@ -25,7 +25,6 @@ use super::cost_objective::CostObjective;
 use super::known_agreements::{KnownAgreements, known_or_measured};
 use super::network_agreement::NetworkAgreement;
 use super::possible_designs::{can_be_built, least_rough_cost};
-use super::rough_cost::RoughPricing;
 use super::threshold_scaling::scale_thresholds_by;
 use crate::ExploreError;
 
@@ -130,15 +129,12 @@ impl<'s, 'a> Descent<'s, 'a> {
                 cameras.push(camera);
             }
         }
-        let pricing = RoughPricing::of_request(self.request);
         let costs = match self.request.cheapest {
             CostObjective::Bytes => {
                 self.network.bytes_per_frame_of(&cameras, self.known.count())?
             }
             CostObjective::Area | CostObjective::Mm2 | CostObjective::Energy => {
-                let cost = |camera: &Camera| {
-                    least_rough_cost(camera.config(), &self.request.task.hardware, pricing)
-                };
+                let cost = |camera: &Camera| least_rough_cost(camera.config(), self.request);
                 cameras.iter().map(cost).collect()
             }
         };

@@ -31,8 +31,8 @@ pub struct FittedDesign {
     pub summary: String,
     /// The number of clocks from one frame to the next.
     pub clocks_per_frame: u64,
-    /// The frames per second, at the clock of the request or at the clock that is estimated from
-    /// the netlist.
+    /// The frames per second, at the clock of the request, at the highest clock in the process if that is
+    /// lower, or at the clock that is estimated from the netlist.
     pub speed: Option<FrameRate>,
     /// The area on the FPGA.
     pub silicon: DesignArea,
@@ -140,10 +140,7 @@ impl FitFindings<'_> {
             cheapest: request.cheapest,
             problems: [halves.problems.clone(), lost_frames].concat(),
             network,
-            design: FittedDesign {
-                held_out_energy: energy,
-                ..FittedDesign::new(chosen, held_out, checks)
-            },
+            design: FittedDesign::new(chosen, held_out, checks, energy),
         }
     }
 }
@@ -154,6 +151,7 @@ impl FittedDesign {
         chosen: &SynthesizedDesign,
         held_out: FidelityFigures,
         held_out_checks: Vec<ConstraintCheck>,
+        held_out_energy: Option<ProcessEnergy>,
     ) -> Self {
         let config = chosen.design.config();
         let fitted = chosen.examined.figures.clone();
@@ -165,7 +163,7 @@ impl FittedDesign {
             speed: chosen.speed,
             silicon: chosen.silicon.clone(),
             process: chosen.process.clone(),
-            held_out_energy: None,
+            held_out_energy,
             bytes_per_frame: (bytes(&fitted), bytes(&held_out)),
             fitted,
             fitted_held: chosen.checks.clone(),

@@ -86,7 +86,8 @@ pub struct FitRequest<'a> {
     /// The limits that the design must meet.
     pub constraints: &'a Constraints,
     /// The clock in Hz, if it is known. Otherwise the clock of each design is estimated from its
-    /// netlist, and [`Constraints::min_fps`] is checked at the low end of its range.
+    /// netlist, and [`Constraints::min_fps`] is checked at the low end of its range. With a process, a design
+    /// has the highest clock in its cells, or this one if it is lower.
     pub clock_hz: Option<u64>,
     /// The wanted share of active regions, 0..=1; the task's thresholds are set to reach it.
     pub target_active: Option<f64>,
@@ -96,8 +97,7 @@ pub struct FitRequest<'a> {
     /// The cost that is minimized.
     pub cheapest: CostObjective,
     /// A process in whose cells designs are measured, too: their area, and their energy at
-    /// [`Constraints::min_fps`], or else at 30 frames per second. Without a clock, the clock of a design is
-    /// then the highest one in these cells.
+    /// [`Constraints::min_fps`], or else at 30 frames per second.
     pub process: Option<&'a TargetProcess>,
     /// A network that must agree, behind the camera, with its outputs for whole frames.
     pub network: Option<NetworkGoal<'a>>,
@@ -112,6 +112,21 @@ impl FitRequest<'_> {
     /// Returns true if the choice of a design depends on its energy.
     fn is_decided_by_energy(&self) -> bool {
         self.cheapest == CostObjective::Energy || self.constraints.max_mw.is_some()
+    }
+
+    /// Refuses costs and limits in a process if there is none.
+    fn check_process(&self) -> Result<(), ExploreError> {
+        let Constraints { max_mm2, max_mw, .. } = self.constraints;
+        let figures = [
+            (self.cheapest == CostObjective::Mm2, "the cost mm2"),
+            (self.cheapest == CostObjective::Energy, "the cost energy"),
+            (max_mm2.is_some(), "--max-mm2"),
+            (max_mw.is_some(), "--max-mw"),
+        ];
+        match figures.into_iter().find(|(is_needed, _)| *is_needed && self.process.is_none()) {
+            Some((_, figure)) => Err(ExploreError::NoProcess { figure }),
+            None => Ok(()),
+        }
     }
 
     /// Returns the least number of frames of a clip.
@@ -142,12 +157,13 @@ impl FitRequest<'_> {
 /// one if no design does, and measures it on the second half.
 ///
 /// # Errors
-/// Fails if the task has zones, if an input cannot be read or is too short to be halved, if Yosys is
+/// Fails if the task has zones, if a cost or a limit needs a process and there is none, if an input cannot be read or is too short to be halved, if Yosys is
 /// missing or fails, or if `hooks` cancels.
 pub fn fit(request: &FitRequest<'_>, hooks: &dyn RunHooks) -> Result<FitResult, ExploreError> {
     if request.task.camera.zones.is_some() {
         return Err(ExploreError::Zones);
     }
+    request.check_process()?;
     let (task, lane_memory) = task_without_hardware(request.task);
     let request = &FitRequest { task: &task, ..request.clone() };
     let inputs = (request.inputs, request.boxes);

@@ -54,12 +54,6 @@ impl BuildBounds {
         Self { max_clocks, is_planned: request.clock_hz.is_none(), memory, target }
     }
 
-    /// Returns the bounds for any frame rate, at a planned clock, on any technology.
-    fn unlimited() -> Self {
-        let (memory, target) = (None, DesignTarget::Process);
-        Self { max_clocks: None, is_planned: true, memory, target }
-    }
-
     /// Returns the bounds for any frame rate.
     pub(super) fn at_any_speed(self) -> Self {
         Self { max_clocks: None, ..self }
@@ -68,9 +62,10 @@ impl BuildBounds {
 
 /// Returns the possible designs of a camera. For each feed of a serial array these are the folds
 /// that are fast enough and may be the cheapest, and halvings of the deepest fold, because only a
-/// synthesis shows which one is the cheapest. If no fold is fast enough, or in the cells of a process, the
-/// pipelined array is possible, and at a planned clock also fold 1. A raster core has the fewest pixels per clock that
-/// are fast enough; at a planned clock it has the most, if none is fast enough.
+/// synthesis shows which one is the cheapest. If no fold is fast enough, the pipelined array is possible,
+/// and at a planned clock also fold 1. In the cells of a process the pipelined array is always possible. A raster core has the fewest pixels per clock that
+/// are fast enough; at a planned clock it has the most, if none is fast enough. There is no raster core
+/// if the energy decides.
 pub(super) fn possible_designs(
     camera: &CameraConfig,
     task_hardware: &HardwareConfig,
@@ -100,7 +95,8 @@ pub(super) fn possible_designs(
 
 /// Returns true if an organization can build the camera, at whatever speed.
 pub(super) fn can_be_built(camera: &CameraConfig, task_hardware: &HardwareConfig) -> bool {
-    let bounds = BuildBounds::unlimited();
+    let (memory, target) = (None, DesignTarget::Process);
+    let bounds = BuildBounds { max_clocks: None, is_planned: true, memory, target };
     !possible_designs(camera, task_hardware, bounds).is_empty()
 }
 
@@ -161,12 +157,10 @@ fn fewest_pixels_per_clock(
 }
 
 /// Returns roughly the least cost of a camera, however it is built; infinite if it cannot be built.
-pub(super) fn least_rough_cost(
-    camera: &CameraConfig,
-    task_hardware: &HardwareConfig,
-    pricing: RoughPricing,
-) -> f64 {
-    let designs = possible_designs(camera, task_hardware, BuildBounds::unlimited());
+pub(super) fn least_rough_cost(camera: &CameraConfig, request: &FitRequest<'_>) -> f64 {
+    let bounds = BuildBounds::of_request(request, None).at_any_speed();
+    let designs = possible_designs(camera, &request.task.hardware, bounds);
+    let pricing = RoughPricing::of_request(request);
     let costs = designs.iter().map(|design| pricing.cost(design));
     costs.fold(f64::INFINITY, f64::min)
 }

@@ -219,7 +219,7 @@ fn deeper_fold_line(chosen: &SynthesizedDesign, request: &FitRequest<'_>) -> Opt
     let speed = chosen.speed?;
     let at_low = FrameRate::at_given_clock(speed.low_clock_mhz, deeper.timing().clocks_per_frame());
     let [check] = request.constraints.check_speed(Some(&at_low)).try_into().ok()?;
-    let whose = if speed.estimated { ", if its clock is the same" } else { "" };
+    let whose = if request.clock_hz.is_none() { ", if its clock is the same" } else { "" };
     (!check.holds).then(|| format!("fold {fold}: {}{whose}", check.text()))
 }
 

@@ -20,7 +20,7 @@ fn relative_filter_cost(filter: DenoiseFilter) -> f64 {
 }
 
 /// The rule by which designs are compared before their synthesis.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct RoughPricing {
     objective: CostObjective,
     /// The largest memory in bits that becomes flip-flops.

@@ -160,7 +160,9 @@ impl FitSynthesis<'_> {
         let mut built = Vec::new();
         for batch in designs[..all.min(most)].chunks(BATCH_SIZE) {
             built.extend(self.synthesize(batch)?);
-            if built.iter().any(SynthesizedDesign::meets_limits) {
+            let is_found =
+                |built: &SynthesizedDesign| built.meets_limits() && built.cost().is_finite();
+            if built.iter().any(is_found) {
                 break;
             }
         }
@@ -179,7 +181,7 @@ impl FitSynthesis<'_> {
         let reports = match request.process {
             None => vec![None; designs.len()],
             Some(process) => {
-                let mapped = request.synthesizer.map_designs(process, alone(), hooks)?;
+                let mapped = process.map_designs(request.synthesizer, alone(), hooks)?;
                 mapped.into_results()?.into_iter().map(Some).collect()
             }
         };
@@ -188,25 +190,25 @@ impl FitSynthesis<'_> {
         };
         let built = designs.iter().map(|(examined, design)| (*examined, design));
         let mut built: Vec<_> = built.zip(found).zip(reports).map(candidate).collect();
-        if request.is_decided_by_energy() {
-            // A design that exceeds two limits is not chosen, and tells no binding limit.
-            let near = built.iter_mut().filter(|candidate| candidate.exceeded_limits() <= 1);
-            self.add_energies(near.collect())?;
-        }
+        let near = built.iter_mut().filter(|candidate| candidate.is_decided_by_energy(request));
+        self.measure_energies(near.collect())?;
         Ok(built)
     }
 
     /// Measures the energy of designs in parallel.
-    fn add_energies(&self, designs: Vec<&mut SynthesizedDesign>) -> Result<(), ExploreError> {
+    fn measure_energies(&self, designs: Vec<&mut SynthesizedDesign>) -> Result<(), ExploreError> {
         let Some(clips) = self.energy_clips else { return Ok(()) };
         let (done, all) = (AtomicUsize::new(0), designs.len());
+        if all > 0 {
+            self.hooks.progress(&energy_progress(0, all));
+        }
         designs.into_par_iter().try_for_each(|candidate| {
             if self.hooks.is_cancelled() {
                 return Err(PlaybackError::Interrupted.into());
             }
             let Some(report) = &candidate.report else { return Ok(()) };
             let energy = clips.measure(self.request.synthesizer, &candidate.design, report)?;
-            candidate.add_energy(energy, self.request);
+            candidate.set_energy(energy, self.request);
             let done = 1 + done.fetch_add(1, Ordering::Relaxed);
             self.hooks.progress(&energy_progress(done, all));
             Ok(())

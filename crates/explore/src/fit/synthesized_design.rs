@@ -20,16 +20,15 @@ pub(super) struct SynthesizedDesign {
     pub(super) examined: ExaminedCamera,
     pub(super) design: Design,
     pub(super) clocks_per_frame: u64,
-    /// The speed at the clock of the request, at the highest clock in the process, or else at the clock that
-    /// is estimated for the FPGA.
+    /// The speed at the clock of the request, or at the highest clock in the process, if that is lower or none
+    /// was requested; without both, at the clock that is estimated for the FPGA.
     pub(super) speed: Option<FrameRate>,
     pub(super) silicon: DesignArea,
     /// The cost in the process, if there is one.
     pub(super) process: Option<ProcessFigures>,
     /// The report of the process, from which its energy can be measured.
     pub(super) report: Option<SiliconReport>,
-    /// All constraints, with the figures of this design. That on power is missing until the energy has been
-    /// measured.
+    /// All constraints, with the figures of this design. A power that was not measured is not known.
     pub(super) checks: Vec<ConstraintCheck>,
     /// The cost by which designs are chosen.
     pub(super) objective: CostObjective,
@@ -46,13 +45,19 @@ impl SynthesizedDesign {
         let clocks_per_frame = design.timing().clocks_per_frame();
         let process = report.as_ref().map(ProcessFigures::from_report);
         let at = |mhz| FrameRate::at_given_clock(mhz, clocks_per_frame);
-        let given = request.clock_hz.map(|hertz| at(count_to_f64(hertz) / 1e6));
-        let highest = process.as_ref().map(|process| at(process.clock_mhz));
-        let speed = given.or(highest).or(estimated);
+        let given = request.clock_hz.map(|hertz| count_to_f64(hertz) / 1e6);
+        let highest = process.as_ref().map(|process| process.clock_mhz);
+        // A chip does not reach a clock above the highest one of its cells.
+        let clock = match (given, highest) {
+            (Some(given), Some(highest)) => Some(given.min(highest)),
+            (given, highest) => given.or(highest),
+        };
+        let speed = clock.map(at).or(estimated);
         let mut checks = examined.checks.clone();
         checks.extend(request.constraints.check_speed(speed.as_ref()));
         checks.extend(request.constraints.check_area(&silicon));
         checks.extend(request.constraints.check_process_area(process.as_ref()));
+        checks.extend(request.constraints.check_power(None));
         let (examined, design) = (examined.clone(), design.clone());
         let objective = request.cheapest;
         Self {
@@ -68,12 +73,25 @@ impl SynthesizedDesign {
         }
     }
 
-    /// Adds the measured energy, and its constraint.
-    pub(super) fn add_energy(&mut self, energy: Option<ProcessEnergy>, request: &FitRequest<'_>) {
+    /// Sets the measured energy, and its constraint.
+    pub(super) fn set_energy(&mut self, energy: Option<ProcessEnergy>, request: &FitRequest<'_>) {
         if let Some(process) = &mut self.process {
             process.energy = energy;
         }
-        self.checks.extend(request.constraints.check_power(energy.as_ref()));
+        if let Some(found) = request.constraints.check_power(energy.as_ref()) {
+            let known = self.checks.iter_mut().find(|check| check.name == found.name);
+            *known.expect("each constraint is checked from the start") = found;
+        }
+    }
+
+    /// Returns true if the energy may decide: the design exceeds no limit except that on power, or one more,
+    /// which is binding if the power meets its limit.
+    pub(super) fn is_decided_by_energy(&self, request: &FitRequest<'_>) -> bool {
+        let exceeded = self.checks.iter().filter(|check| !check.holds).count();
+        match request.constraints.max_mw {
+            Some(_) => exceeded <= 2,
+            None => request.cheapest == CostObjective::Energy && exceeded == 0,
+        }
     }
 
     /// Measures the energy in the first halves, unless it is known, and returns that in the second halves.
@@ -85,12 +103,12 @@ impl SynthesizedDesign {
         let Some(report) = &self.report else { return Ok(None) };
         let measure =
             |half: &EnergyClips<'_>| half.measure(request.synthesizer, &self.design, report);
-        let second = measure(second)?;
-        if self.energy().is_none() {
-            let first = measure(first)?;
-            self.add_energy(first, request);
+        if self.energy().is_some() {
+            return measure(second);
         }
-        Ok(second)
+        let (first, second) = rayon::join(|| measure(first), || measure(second));
+        self.set_energy(first?, request);
+        second
     }
 
     /// Returns the measured energy.
@@ -104,11 +122,6 @@ impl SynthesizedDesign {
 
     pub(super) fn excess(&self) -> f64 {
         total_excess(&self.checks)
-    }
-
-    /// Returns the number of limits that the design exceeds.
-    pub(super) fn exceeded_limits(&self) -> usize {
-        self.checks.iter().filter(|check| !check.holds).count()
     }
 
     /// Returns the cost by which designs are chosen; infinite if it is not known.
