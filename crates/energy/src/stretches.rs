@@ -9,7 +9,7 @@ use foveate_engine::Engine;
 use foveate_estimate::count_to_f64;
 use foveate_footage::SourceKind;
 use foveate_frame::Frame;
-use foveate_playback::{FrameDepths, PlaybackError, RunClips};
+use foveate_playback::{ClipPlayer, FrameDepths, PlaybackError, RunClips};
 
 use crate::error::EnergyError;
 
@@ -57,9 +57,13 @@ impl ActivityClip<'_> {
     /// # Errors
     /// Fails if the clip is a set of images, or cannot be opened.
     pub fn check(&self) -> Result<(), EnergyError> {
+        self.open().map(drop)
+    }
+
+    fn open(&self) -> Result<ClipPlayer, EnergyError> {
         let player = self.clips.open(self.clip)?;
         match player.kind() {
-            SourceKind::Clip => Ok(()),
+            SourceKind::Clip => Ok(player),
             SourceKind::Set => Err(EnergyError::NoClip { input: player.inputs().join(", ") }),
         }
     }
@@ -73,8 +77,7 @@ impl ActivityClip<'_> {
     ) -> Result<(u64, Vec<ClipStretch>), EnergyError> {
         let mut engine = Engine::new(design.camera());
         let mut sent = Vec::new();
-        self.check()?;
-        for played in self.clips.open(self.clip)?.limited_to(self.frames.end) {
+        for played in self.open()?.limited_to(self.frames.end) {
             let played = played?;
             let frames = FrameDepths::from_frame(&played, [design.pixel_bits()])?;
             let outcome = frames.show_to(&mut engine)?;

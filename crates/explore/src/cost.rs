@@ -66,21 +66,21 @@ impl<T: Send> ResultsByRtl<T> {
         designs: impl Iterator<Item = &'a Design>,
         hooks: &dyn RunHooks,
         stage: fn(usize, usize) -> RunProgress<'static>,
-        compute: impl Fn(&Design) -> Result<T, ExploreError> + Sync,
+        compute: impl Fn(EstimateJob, &Design) -> Result<T, ExploreError> + Sync,
     ) -> Result<Self, ExploreError> {
         let mut distinct = BTreeMap::new();
         let keys = designs.map(|design| {
             let job = EstimateJob::for_design(design, Top::Rcm);
             let all = job.top_synthesis();
             let key = format!("{} {:?}", sources_sha256(&all.sources), all.parameters);
-            distinct.entry(key.clone()).or_insert(design);
+            distinct.entry(key.clone()).or_insert((job, design));
             key
         });
         let keys = keys.collect();
         let (done, all) = (AtomicUsize::new(0), distinct.len());
         let running = distinct.into_par_iter().filter(|_| !hooks.is_cancelled());
-        let results = running.map(|(key, design)| {
-            let result = compute(design);
+        let results = running.map(|(key, (job, design))| {
+            let result = compute(job, design);
             let done = 1 + done.fetch_add(1, Ordering::Relaxed);
             hooks.progress(&stage(done, all));
             (key, result)
@@ -121,14 +121,13 @@ impl Synthesizer {
         designs: impl Iterator<Item = &'a Design>,
         hooks: &dyn RunHooks,
     ) -> Result<ResultsByRtl<SynthesisResult>, ExploreError> {
-        ResultsByRtl::compute(designs, hooks, synthesis_progress, |design| {
-            self.synthesize_design(design)
+        ResultsByRtl::compute(designs, hooks, synthesis_progress, |job, _| {
+            self.synthesize_job(&job)
         })
     }
 
-    fn synthesize_design(&self, design: &Design) -> Result<SynthesisResult, ExploreError> {
-        let job = EstimateJob::for_design(design, Top::Rcm);
-        let report = estimate(&self.toolchain, &self.cache, &job)?;
+    fn synthesize_job(&self, job: &EstimateJob) -> Result<SynthesisResult, ExploreError> {
+        let report = estimate(&self.toolchain, &self.cache, job)?;
         let silicon = DesignArea {
             unit: report.rpu,
             units: job.units,

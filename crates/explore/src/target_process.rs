@@ -133,12 +133,12 @@ impl<'a> EnergyClips<'a> {
         design: &Design,
         report: &SiliconReport,
     ) -> Result<Option<ProcessEnergy>, ExploreError> {
-        match design.organization() {
-            Organization::Raster => return Ok(None),
-            Organization::Pipelined | Organization::Serial if report.memory.bits > 0 => {
-                return Ok(None);
-            }
-            Organization::Pipelined | Organization::Serial => {}
+        let is_measurable = match design.organization() {
+            Organization::Pipelined | Organization::Serial => report.memory.bits == 0,
+            Organization::Raster => false,
+        };
+        if !is_measurable {
+            return Ok(None);
         }
         let Synthesizer { toolchain, cache } = synthesizer;
         let measure = |clip: &ActivityClip<'_>| -> Result<EnergyReport, ExploreError> {
@@ -166,8 +166,8 @@ impl TargetProcess {
         hooks: &dyn RunHooks,
     ) -> Result<ResultsByRtl<SiliconReport>, ExploreError> {
         let Synthesizer { toolchain, cache } = synthesizer;
-        ResultsByRtl::compute(designs, hooks, mapping_progress, |design| {
-            let job = SiliconJob::for_design(design, self.memory_limit);
+        ResultsByRtl::compute(designs, hooks, mapping_progress, |job, design| {
+            let job = SiliconJob::for_array(job, design, self.memory_limit);
             let inputs = (&self.library, self.macros.as_slice());
             Ok(map_to_silicon(toolchain, cache, &job, inputs)?)
         })

@@ -12,9 +12,9 @@ use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Tool, Toolchain};
 use serde_json::Value;
 
+use crate::common::silicon::{LIBRARY, is_ready, number};
 use crate::common::{expect_failure, foveate, run_in, run_successfully};
 
-const LIBRARY: &str = "/usr/share/qflow/tech/osu018/osu018_stdcells.lib";
 const SMALL: [&str; 8] = [
     "--preset",
     "bare",
@@ -29,21 +29,9 @@ const SMALL: [&str; 8] = [
 /// The frame of a core of `raster`, which needs rows of four regions.
 const WIDE: [&str; 2] = ["--set", "frame.width=16"];
 
-/// Returns true if the tools are there; where tools are required, the library must be there, too.
-fn is_ready() -> bool {
-    require_tools(&[Tool::Yosys, Tool::OpenSta])
-        && (Path::new(LIBRARY).exists()
-            || std::env::var_os("FOVEATE_REQUIRE_TOOLS").is_none_or(|_| panic!("no {LIBRARY}")))
-        && Path::new(LIBRARY).exists()
-}
-
 fn report(folder: &Path, args: &[&str]) -> Value {
     let command = [&["estimate", "--json", "--quiet"], args].concat();
     serde_json::from_str(&run_successfully(folder, &command)).unwrap()
-}
-
-fn number(value: &Value, pointer: &str) -> f64 {
-    value.pointer(pointer).and_then(Value::as_f64).unwrap_or_else(|| panic!("{pointer}: {value}"))
 }
 
 /// Returns the area of every cell of a library in which each cell begins a line of its own, read

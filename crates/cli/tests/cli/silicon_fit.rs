@@ -3,25 +3,16 @@
 
 use std::path::Path;
 
-use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Tool, Toolchain};
 use serde_json::Value;
 
+use crate::common::silicon::{LIBRARY, is_ready, number};
 use crate::common::{foveate, run_in, run_successfully};
 
-const LIBRARY: &str = "/usr/share/qflow/tech/osu018/osu018_stdcells.lib";
 /// A small task, of which few designs are synthesized.
 const TASK: [&str; 4] = ["clip", "--set", "region.size=4", "--max-flips=20%"];
 /// The number of frames of the clip.
 const FRAMES: u32 = 20;
-
-/// Returns true if the tools are there; where tools are required, the library must be there, too.
-fn is_ready() -> bool {
-    require_tools(&[Tool::Yosys, Tool::OpenSta])
-        && (Path::new(LIBRARY).exists()
-            || std::env::var_os("FOVEATE_REQUIRE_TOOLS").is_none_or(|_| panic!("no {LIBRARY}")))
-        && Path::new(LIBRARY).exists()
-}
 
 /// Writes a clip of 8x8 pixels, in which a square moves faster and faster over a ramp.
 fn write_clip(folder: &Path) {
@@ -44,10 +35,6 @@ fn fit(folder: &Path, args: &[&str]) -> (Value, i32) {
     let run = run_in(folder, &command.concat());
     let result = serde_json::from_str(&run.stdout);
     (result.unwrap_or_else(|error| panic!("{error}: {}", run.stderr)), run.code)
-}
-
-fn number(value: &Value, pointer: &str) -> f64 {
-    value.pointer(pointer).and_then(Value::as_f64).unwrap_or_else(|| panic!("{pointer}: {value}"))
 }
 
 /// Returns the constraint of that name on the first halves and on the second halves.

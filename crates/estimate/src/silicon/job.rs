@@ -35,8 +35,14 @@ impl SiliconJob {
     /// Makes the job of a design's freshly generated Verilog.
     #[must_use]
     pub fn for_design(design: &Design, memory_limit: u64) -> Self {
+        Self::for_array(EstimateJob::for_design(design, Top::Rcm), design, memory_limit)
+    }
+
+    /// Makes the job of a design whose Verilog is there.
+    #[must_use]
+    pub fn for_array(array: EstimateJob, design: &Design, memory_limit: u64) -> Self {
         Self {
-            design: EstimateJob::for_design(design, Top::Rcm),
+            design: array,
             region_size: design.region_size(),
             leaves_of: design.unit().area_module.to_owned(),
             memory_limit,

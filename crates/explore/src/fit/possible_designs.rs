@@ -8,7 +8,7 @@ use foveate_design::{
 use foveate_estimate::most_clocks_per_frame;
 
 use super::FitRequest;
-use super::rough_cost::RoughPricing;
+use super::rough_cost::RoughCostModel;
 use crate::row::count_to_f64;
 
 /// The planned clock in Hz. It decides which folds are tried, because a design has no netlist and
@@ -160,8 +160,8 @@ fn fewest_pixels_per_clock(
 pub(super) fn least_rough_cost(camera: &CameraConfig, request: &FitRequest<'_>) -> f64 {
     let bounds = BuildBounds::of_request(request, None).at_any_speed();
     let designs = possible_designs(camera, &request.task.hardware, bounds);
-    let pricing = RoughPricing::of_request(request);
-    let costs = designs.iter().map(|design| pricing.cost(design));
+    let cost_model = RoughCostModel::of_request(request);
+    let costs = designs.iter().map(|design| cost_model.cost(design));
     costs.fold(f64::INFINITY, f64::min)
 }
 

@@ -21,7 +21,7 @@ fn relative_filter_cost(filter: DenoiseFilter) -> f64 {
 
 /// The rule by which designs are compared before their synthesis.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct RoughPricing {
+pub(super) struct RoughCostModel {
     objective: CostObjective,
     /// The largest memory in bits that becomes flip-flops.
     memory_limit: u64,
@@ -29,7 +29,7 @@ pub(super) struct RoughPricing {
     has_macros: bool,
 }
 
-impl RoughPricing {
+impl RoughCostModel {
     pub(super) fn of_request(request: &FitRequest<'_>) -> Self {
         let process = request.process;
         Self {

@@ -6,7 +6,7 @@ use foveate_design::{Design, Hardware};
 use foveate_estimate::{Area, FpgaDevice, FrameRate, most_clocks_per_frame};
 
 use super::cost_objective::CostObjective;
-use super::rough_cost::RoughPricing;
+use super::rough_cost::RoughCostModel;
 use super::synthesized_design::SynthesizedDesign;
 use crate::cost::DesignArea;
 
@@ -34,12 +34,12 @@ pub(super) fn slower_designs(design: &Design, speed: &FrameRate, min_fps: f64) -
 pub(super) fn expected_cost(
     design: &Design,
     from: &SynthesizedDesign,
-    pricing: RoughPricing,
+    cost_model: RoughCostModel,
 ) -> f64 {
     match from.objective {
         CostObjective::Bytes | CostObjective::Area => expected_share(design, &from.silicon),
         CostObjective::Mm2 | CostObjective::Energy => {
-            from.cost() * pricing.cost(design) / pricing.cost(&from.design)
+            from.cost() * cost_model.cost(design) / cost_model.cost(&from.design)
         }
     }
 }

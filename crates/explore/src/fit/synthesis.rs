@@ -12,7 +12,7 @@ use super::FitRequest;
 use super::camera_search::{CameraSearch, ExaminedCamera};
 use super::cost_objective::CostObjective;
 use super::possible_designs::{BuildBounds, possible_designs};
-use super::rough_cost::RoughPricing;
+use super::rough_cost::RoughCostModel;
 use super::simplest_cameras::{cameras_with_fewest_bytes, simplest_cameras};
 use super::slower_designs::{expected_cost, slower_designs};
 use super::synthesized_design::SynthesizedDesign;
@@ -115,7 +115,7 @@ impl FitSynthesis<'_> {
         &self,
         candidates: &mut Vec<SynthesizedDesign>,
     ) -> Result<(), ExploreError> {
-        let (request, pricing) = (self.request, RoughPricing::of_request(self.request));
+        let (request, cost_model) = (self.request, RoughCostModel::of_request(self.request));
         let Some(min_fps) = request.constraints.min_fps else { return Ok(()) };
         let most = request.max_designs.min(candidates.len() + MAX_SLOWER_DESIGNS);
         while candidates.len() < most {
@@ -128,7 +128,7 @@ impl FitSynthesis<'_> {
                 let speed = candidate.speed.as_ref();
                 let slower = speed.map(|speed| slower_designs(&candidate.design, speed, min_fps));
                 let expected = |design| {
-                    let cost = expected_cost(&design, candidate, pricing);
+                    let cost = expected_cost(&design, candidate, cost_model);
                     (cost, &candidate.examined, design)
                 };
                 slower.unwrap_or_default().into_iter().filter(is_new).map(expected)
@@ -155,7 +155,7 @@ impl FitSynthesis<'_> {
             let own = possible_designs(&examined.config, &self.request.task.hardware, bounds);
             designs.extend(own.into_iter().map(|design| (*examined, design)));
         }
-        sort_by_rough_cost(&mut designs, RoughPricing::of_request(self.request));
+        sort_by_rough_cost(&mut designs, RoughCostModel::of_request(self.request));
         let all = designs.len();
         let mut built = Vec::new();
         for batch in designs[..all.min(most)].chunks(BATCH_SIZE) {
@@ -218,8 +218,8 @@ impl FitSynthesis<'_> {
 
 /// Sorts designs by their rough cost, and takes the organizations in turn. A limit on a unit may
 /// exclude one organization, and the others must not wait behind all its designs.
-fn sort_by_rough_cost(designs: &mut Vec<(&ExaminedCamera, Design)>, pricing: RoughPricing) {
-    designs.sort_by(|(_, one), (_, other)| pricing.cost(one).total_cmp(&pricing.cost(other)));
+fn sort_by_rough_cost(designs: &mut Vec<(&ExaminedCamera, Design)>, cost_model: RoughCostModel) {
+    designs.sort_by(|(_, one), (_, other)| cost_model.cost(one).total_cmp(&cost_model.cost(other)));
     let mut turns = [0; Organization::ALL.len()];
     let turn = |(examined, design): (_, Design)| {
         let number = design.organization() as usize;

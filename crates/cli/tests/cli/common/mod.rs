@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Functions that run the command as a user does.
 
+pub(crate) mod silicon;
+
 use std::path::{Path, PathBuf};
 
 use assert_cmd::Command;
