@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 
-use foveate_estimate::LibertyLibrary;
+use foveate_estimate::{LibertyLibrary, check_libraries};
 use foveate_explore::TargetProcess;
 
 use crate::args::{DEFAULT_LIBERTY, ProcessArgs};
@@ -25,10 +25,11 @@ pub(crate) fn read_macros(paths: &[PathBuf]) -> Result<Vec<LibertyLibrary>, CliE
     Ok(paths.iter().map(|path| LibertyLibrary::read(path)).collect::<Result<_, _>>()?)
 }
 
-/// Reads the process of the options, if there is one.
+/// Reads the process of the options, if there is one. Faults of its libraries are found here, before a long run.
 pub(crate) fn read_process(args: &ProcessArgs) -> Result<Option<TargetProcess>, CliError> {
     let Some(path) = &args.liberty else { return Ok(None) };
     let library = read_library(path)?;
     let macros = read_macros(&args.macros)?;
+    check_libraries(&library, &macros)?;
     Ok(Some(TargetProcess { library, macros, memory_limit: args.memory_limit }))
 }

@@ -39,8 +39,10 @@ pub enum EnergyError {
     #[error(transparent)]
     Config(#[from] ConfigError),
     /// The clip is too short.
-    #[error("the clip has {found} frames, and an activity needs at least {needed}")]
+    #[error("the clip `{clip}` has {found} frames, and an activity needs at least {needed}")]
     TooShort {
+        /// The name of the clip.
+        clip: String,
         /// The number of its frames.
         found: u64,
         /// The number that is needed.

@@ -52,12 +52,26 @@ impl ActivityClip<'_> {
     /// The least number of frames whose activity counts.
     pub const MIN_FRAMES: u64 = FRAMES_BEFORE + 1 + FRAMES_BEHIND;
 
-    /// Checks that the clip has an order in time.
+    /// Checks that the clip has an order in time and enough frames.
     ///
     /// # Errors
-    /// Fails if the clip is a set of images, or cannot be opened.
+    /// Fails if the clip is a set of images, is too short, or cannot be read.
     pub fn check(&self) -> Result<(), EnergyError> {
-        self.open().map(drop)
+        let Range { start, end } = self.frames;
+        let mut found = 0;
+        for played in self.open()?.limited_to(end.min(start.saturating_add(Self::MIN_FRAMES))) {
+            found += u64::from(self.frames.contains(&played?.number));
+        }
+        self.check_length(found)
+    }
+
+    fn check_length(&self, found: u64) -> Result<(), EnergyError> {
+        let needed = Self::MIN_FRAMES;
+        if found < needed {
+            let clip = self.clips.clips()[self.clip].name.clone();
+            return Err(EnergyError::TooShort { clip, found, needed });
+        }
+        Ok(())
     }
 
     fn open(&self) -> Result<ClipPlayer, EnergyError> {
@@ -85,7 +99,8 @@ impl ActivityClip<'_> {
                 sent.push(outcome.active.iter().filter(|active| **active).count() as u64);
             }
         }
-        let mut stretches = choose_stretches(&sent, u64::from(design.regions()), length)?;
+        self.check_length(sent.len() as u64)?;
+        let mut stretches = choose_stretches(&sent, u64::from(design.regions()), length);
         stretches.iter_mut().for_each(|stretch| stretch.first += self.frames.start);
         Ok((sent.len() as u64, stretches))
     }
@@ -112,17 +127,10 @@ impl ActivityClip<'_> {
     }
 }
 
-/// Chooses a quiet, a usual and the busiest stretch by the number of regions that each frame sent.
-fn choose_stretches(
-    sent: &[u64],
-    regions: u64,
-    length: u64,
-) -> Result<Vec<ClipStretch>, EnergyError> {
+/// Chooses a quiet, a usual and the busiest stretch by the number of regions that each frame sent. There are at
+/// least [`ActivityClip::MIN_FRAMES`] frames.
+fn choose_stretches(sent: &[u64], regions: u64, length: u64) -> Vec<ClipStretch> {
     let found = sent.len() as u64;
-    let needed = ActivityClip::MIN_FRAMES;
-    if found < needed {
-        return Err(EnergyError::TooShort { found, needed });
-    }
     let frames = (found - FRAMES_BEFORE - FRAMES_BEHIND).min(length);
     let of_stretch = |first: u64| -> u64 {
         let of_frame = |frame: u64| usize::try_from(frame).ok().and_then(|frame| sent.get(frame));
@@ -135,7 +143,7 @@ fn choose_stretches(
         ClipStretch { name, first, frames, sent_share }
     };
     let (quiet, usual, busiest) = (firsts[0], firsts[firsts.len() / 2], firsts[firsts.len() - 1]);
-    Ok(vec![stretch("quiet", quiet), stretch("usual", usual), stretch("busiest", busiest)])
+    vec![stretch("quiet", quiet), stretch("usual", usual), stretch("busiest", busiest)]
 }
 
 #[cfg(test)]
@@ -145,7 +153,7 @@ mod tests {
     #[test]
     fn the_stretches_are_the_quietest_the_median_and_the_busiest() {
         let sent = [9, 9, 5, 5, 5, 5, 0, 0, 0, 0, 8, 8, 8, 8, 1];
-        let stretches = choose_stretches(&sent, 10, 4).unwrap();
+        let stretches = choose_stretches(&sent, 10, 4);
         let found: Vec<_> =
             stretches.iter().map(|own| (own.name, own.first, own.frames, own.sent_share)).collect();
         assert_eq!(found, [("quiet", 6, 4, 0.0), ("usual", 3, 4, 0.375), ("busiest", 9, 4, 0.6)]);
@@ -154,9 +162,7 @@ mod tests {
 
     #[test]
     fn a_short_clip_has_short_stretches() {
-        let stretches = choose_stretches(&[1, 1, 1, 1, 1], 10, 4).unwrap();
+        let stretches = choose_stretches(&[1, 1, 1, 1, 1], 10, 4);
         assert!(stretches.iter().all(|own| (own.first, own.frames) == (2, 1)));
-        let error = choose_stretches(&[1, 1, 1, 1], 10, 4).unwrap_err().to_string();
-        assert!(error.contains("has 4 frames") && error.contains("at least 5"), "{error}");
     }
 }

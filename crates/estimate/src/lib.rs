@@ -55,8 +55,8 @@ pub use silicon::{
     InternalEnergy, LOW_NET, LibertyLibrary, LibraryFigures, LogicFunction, LookupTable,
     MacroChoice, MemoryFigures, MemoryTotals, NOT_INCLUDED, NetlistGate, OutputTransition,
     SILICON_FORMAT_VERSION, SiliconError, SiliconJob, SiliconLeaf, SiliconPath, SiliconReport,
-    TimingSense, UnitFigures, gate_netlist, map_to_silicon, map_unit, render_silicon_markdown,
-    render_silicon_text,
+    TimingSense, UnitFigures, check_libraries, gate_netlist, map_to_silicon, map_unit,
+    render_silicon_markdown, render_silicon_text,
 };
 pub use speed::{FrameRate, count_to_f64, most_clocks_per_frame};
 pub use table::{ReportTable, header, wrap};

@@ -78,6 +78,9 @@ impl<T: Send> ResultsByRtl<T> {
         });
         let keys = keys.collect();
         let (done, all) = (AtomicUsize::new(0), distinct.len());
+        if all > 0 {
+            hooks.progress(&stage(0, all));
+        }
         let running = distinct.into_par_iter().filter(|_| !hooks.is_cancelled());
         let results = running.map(|(key, (job, design))| {
             let result = compute(job, design);

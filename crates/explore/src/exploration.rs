@@ -19,9 +19,15 @@ pub struct Exploration {
     pub size: (u32, u32),
     /// The ideal camera that designs are compared with, as TOML.
     pub ideal: String,
-    /// The clock of the frame rates in MHz, if the space gives one; otherwise each design has its
-    /// estimated clock.
+    /// The clock of the frame rates in MHz, if the space gives one; otherwise each design has its own
+    /// clock. In a process no design has a clock above the highest one of its cells.
     pub clock_mhz: Option<u32>,
+    /// The name of the library of cells in which designs were measured, if there is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub library: Option<String>,
+    /// The frames per second of powers, if energies were measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub energy_rate: Option<f64>,
     /// The rate in bits per second of the link behind all designs, if the space gives one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub link_bits_per_second: Option<u64>,
@@ -31,8 +37,8 @@ pub struct Exploration {
     pub rows: Vec<DesignRow>,
     /// The combinations that are not valid designs.
     pub refused: Vec<RefusedCombination>,
-    /// The problems: clips that ended early, and designs that Yosys could not synthesize, with the
-    /// reasons.
+    /// The problems: clips that ended early, and designs that could not be synthesized, mapped to cells or
+    /// simulated as gates, with the reasons.
     pub problems: Vec<String>,
 }
 

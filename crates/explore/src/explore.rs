@@ -4,20 +4,19 @@
 
 use std::path::Path;
 
-use foveate_design::Design;
 use foveate_files::tables::{NamedCells, Table};
 use foveate_playback::RunHooks;
 
-use crate::cost::SynthesisResult;
 use crate::exploration_work::ExplorationWork;
 use crate::folder::{MARK_FILE, UNFINISHED_MARK, claim_folder, open_continued, write_mark};
 use crate::link_load::LoadMeasurement;
 use crate::measure::CameraMeasurement;
 use crate::objective::mark_fronts;
+use crate::point_synthesis::{PointSynthesis, SynthesizedPoint};
 use crate::row::DesignRow;
 use crate::store::MeasurementStore;
-use crate::table::{error_cells, load_cells, name_cells, point_cells};
-use crate::{ClipRow, Exploration, ExploreError, ExploreRequest, LoadFigures, Synthesizer};
+use crate::table::{error_cells, load_cells, name_cells, point_cells, process_cells};
+use crate::{ClipRow, Exploration, ExploreError, ExploreRequest, LoadFigures};
 
 /// The names of the tables and of the page.
 const POINTS: &str = "points.csv";
@@ -52,11 +51,18 @@ pub fn explore(
     let store = MeasurementStore::open(output)?;
     let designs =
         points.iter().map(|point| point.config.validate()).collect::<Result<Vec<_>, _>>()?;
+    let synthesis = request.synthesis;
+    let synthesis =
+        synthesis.map(|synthesis| PointSynthesis::new(synthesis, &footage, &store, hooks));
+    let synthesis = synthesis.transpose()?;
     let loads = LoadMeasurement::of_space(space, &footage);
     let loads = loads.map(|loads| loads.measure_clips(&designs, &store)).transpose()?;
     let loads = loads.unwrap_or_default();
     let measured = footage.measure_clips(&cameras, &store)?;
-    let (synthesized, failed) = synthesize_all(request.synthesizer, &designs, hooks)?;
+    let (synthesized, failed) = match &synthesis {
+        Some(synthesis) => synthesis.synthesize(&designs)?,
+        None => (vec![SynthesizedPoint::default(); designs.len()], Vec::new()),
+    };
     let mut rows = Vec::new();
     for (index, (point, (design, synthesized))) in
         points.iter().zip(designs.iter().zip(synthesized)).enumerate()
@@ -81,13 +87,16 @@ pub fn explore(
             let problem = measured.iter().find_map(|one| one.problem.clone());
             problem.map(|problem| format!("{}: {problem}", subject.name))
         };
+    let process = request.synthesis.and_then(|synthesis| synthesis.process);
     let exploration = Exploration {
-        format_version: 4,
+        format_version: 5,
         program: concat!("foveate ", env!("CARGO_PKG_VERSION")).to_owned(),
         clips: footage.clips.clips().iter().zip(&measured).map(of_clip).collect(),
         size: footage.size,
         ideal: space.ideal.to_toml(),
         clock_mhz: space.clock_mhz,
+        library: process.map(|own| own.process.library.name.clone()),
+        energy_rate: process.and_then(|own| own.energy_rate),
         link_bits_per_second: space.link.map(|rate| rate.0),
         axes: space.axes.iter().map(|axis| axis.key.clone()).collect(),
         rows,
@@ -105,21 +114,6 @@ pub fn explore(
     Ok(exploration)
 }
 
-/// Returns the area and speed of every design, and the errors of Yosys. A design that fails does
-/// not lose the others.
-fn synthesize_all(
-    synthesizer: Option<&Synthesizer>,
-    designs: &[Design],
-    hooks: &dyn RunHooks,
-) -> Result<(Vec<Option<SynthesisResult>>, Vec<String>), ExploreError> {
-    let Some(synthesizer) = synthesizer else { return Ok((vec![None; designs.len()], Vec::new())) };
-    let areas = synthesizer.synthesize_designs(designs.iter(), hooks)?;
-    let failed =
-        areas.iter().enumerate().filter_map(|(index, area)| Some((index + 1, area.err()?)));
-    let problems = failed.map(|(point, error)| format!("point {point}: {error}")).collect();
-    Ok((areas.iter().map(|area| area.ok().cloned()).collect(), problems))
-}
-
 fn write(
     exploration: &Exploration,
     (measured, camera_of_point): (&[Vec<CameraMeasurement>], &[usize]),
@@ -127,6 +121,13 @@ fn write(
     output: &Path,
 ) -> Result<(), ExploreError> {
     let (rows, has_link) = (&exploration.rows, exploration.link_bits_per_second.is_some());
+    let point = |row: &DesignRow| {
+        let mut cells = point_cells(row, &exploration.axes);
+        if exploration.library.is_some() {
+            cells.extend(process_cells(row));
+        }
+        cells
+    };
     let with_load = |mut cells: NamedCells, load: Option<LoadFigures>| {
         if has_link {
             cells.extend(load_cells(load.as_ref()));
@@ -134,7 +135,7 @@ fn write(
         cells
     };
     let table = |rows: &mut dyn Iterator<Item = &DesignRow>| {
-        let cells = |row: &DesignRow| with_load(point_cells(row, &exploration.axes), row.load);
+        let cells = |row: &DesignRow| with_load(point(row), row.load);
         Table::from_rows(rows.map(cells))
     };
     let points = table(&mut rows.iter());

@@ -16,6 +16,10 @@ pub(crate) enum Objective {
     PerClock,
     /// The LUTs of the array, including those used as memory.
     Luts,
+    /// The area of the array in the cells of a process, in square millimetres.
+    Mm2,
+    /// The energy of a region in a frame, in the cells of a process, in nanojoules.
+    Energy,
     /// The share of the relevant regions that are stale, 0..=1.
     Stale,
     /// The bytes per frame that leave the array.
@@ -34,7 +38,9 @@ pub(crate) enum BetterDirection {
 impl Objective {
     pub(crate) fn better_direction(self) -> BetterDirection {
         match self {
-            Self::Error | Self::Luts | Self::Stale | Self::Bytes => BetterDirection::Smaller,
+            Self::Error | Self::Luts | Self::Mm2 | Self::Energy | Self::Stale | Self::Bytes => {
+                BetterDirection::Smaller
+            }
             Self::Speed | Self::PerClock | Self::Ssim => BetterDirection::Larger,
         }
     }
@@ -46,6 +52,8 @@ impl Objective {
             Self::Speed => row.speed.map(|speed| speed.frames_per_second),
             Self::PerClock => Some(1.0 / count_to_f64(row.clocks_per_frame)),
             Self::Luts => row.luts(),
+            Self::Mm2 => row.process.as_ref().and_then(|process| process.mm2),
+            Self::Energy => row.energy().map(|energy| energy.nj_per_region),
             Self::Stale => Some(row.figures.staleness.share),
             Self::Bytes => Some(row.bytes_per_frame),
             Self::Ssim => Some(row.figures.ssim_ideal),
@@ -67,6 +75,12 @@ pub(crate) fn speed_objective<'a>(rows: impl IntoIterator<Item = &'a DesignRow>)
     if known { Objective::Speed } else { Objective::PerClock }
 }
 
+/// Returns the objective of area: square millimetres in the cells of a process, or LUTs if there is no process.
+pub(crate) fn area_objective<'a>(rows: impl IntoIterator<Item = &'a DesignRow>) -> Objective {
+    let is_mapped = rows.into_iter().any(|row| row.process.is_some());
+    if is_mapped { Objective::Mm2 } else { Objective::Luts }
+}
+
 /// Returns whether each point is unbeaten: no other point is as good in all objectives and better
 /// in one.
 pub(crate) fn unbeaten_rows<const N: usize>(
@@ -79,15 +93,22 @@ pub(crate) fn unbeaten_rows<const N: usize>(
 
 /// Marks the fronts of an exploration.
 pub(crate) fn mark_fronts(rows: &mut [DesignRow]) {
-    use Objective::{Error, Luts};
+    use Objective::{Energy, Error};
     let all: Vec<&DesignRow> = rows.iter().collect();
     let fast = speed_objective(all.iter().copied());
+    let small = area_objective(all.iter().copied());
+    let has_areas = all.iter().any(|row| small.value_of(row).is_some());
     let speed = unbeaten_rows(&all, [Error, fast]);
-    let area = unbeaten_rows(&all, [Error, Luts]);
-    let synthesized = rows.iter().any(|row| row.silicon.is_some());
-    let both = if synthesized { unbeaten_rows(&all, [Error, fast, Luts]) } else { speed.clone() };
-    for (row, ((speed, area), all)) in rows.iter_mut().zip(speed.into_iter().zip(area).zip(both)) {
-        row.front = FrontMembership { speed, area, all };
+    let area = unbeaten_rows(&all, [Error, small]);
+    let energy = unbeaten_rows(&all, [Error, Energy]);
+    let both = if has_areas { unbeaten_rows(&all, [Error, fast, small]) } else { speed.clone() };
+    for (index, row) in rows.iter_mut().enumerate() {
+        row.front = FrontMembership {
+            speed: speed[index],
+            area: area[index],
+            energy: energy[index],
+            all: both[index],
+        };
     }
 }
 
@@ -95,6 +116,7 @@ pub(crate) fn mark_fronts(rows: &mut [DesignRow]) {
 mod tests {
     use super::*;
     use crate::report::sample::sample_exploration;
+    use crate::{ProcessEnergy, ProcessFigures};
     use foveate_estimate::FrameRate;
 
     /// Makes points with figures from a few values, so that many are equal. Some points have no
@@ -151,6 +173,7 @@ mod tests {
                 let expected = FrontMembership {
                     speed: on(true, false),
                     area: on(false, true),
+                    energy: false,
                     all: on(true, true),
                 };
                 assert_eq!(row.front, expected, "seed {seed}, {row:?}");
@@ -160,6 +183,58 @@ mod tests {
         }
         // Without many such points the test would not notice if speed and area were swapped.
         assert!(told_apart > 500 && without_area > 0, "{told_apart}, {without_area}");
+    }
+
+    /// The definition of a front by costs: all are known, and no other point has costs of which none is higher
+    /// and one is lower.
+    fn unbeaten(rows: &[DesignRow], costs: &dyn Fn(&DesignRow) -> Vec<Option<f64>>) -> Vec<bool> {
+        let known = |row| costs(row).into_iter().collect::<Option<Vec<f64>>>();
+        let all: Vec<_> = rows.iter().map(known).collect();
+        let beats = |one: &Vec<f64>, other: &Vec<f64>| {
+            one != other && one.iter().zip(other).all(|(one, other)| one <= other)
+        };
+        let is_beaten = |own| all.iter().flatten().any(|one| beats(one, own));
+        all.iter().map(|own| own.as_ref().is_some_and(|own| !is_beaten(own))).collect()
+    }
+
+    #[test]
+    fn in_a_process_the_fronts_are_those_of_its_area_and_energy() {
+        let (mut differing, mut unknown) = (0, 0);
+        for seed in 0..100 {
+            let mut rows = points(seed);
+            let mut chance = fastrand::Rng::with_seed(seed);
+            for row in &mut rows {
+                row.process = (chance.u8(0..5) > 0).then(|| ProcessFigures {
+                    library: "cells".to_owned(),
+                    unit_um2: 1.0,
+                    mm2: (chance.u8(0..5) > 0).then(|| f64::from(chance.u32(1..9))),
+                    memory_bits_without_macro: 0,
+                    clock_mhz: 1.0,
+                    energy: (chance.u8(0..3) > 0).then(|| ProcessEnergy {
+                        frame_rate: 30.0,
+                        nj_per_region: f64::from(chance.u32(1..9)),
+                        usual_mw: f64::from(chance.u32(1..9)),
+                        busiest_mw: f64::from(chance.u32(1..9)),
+                    }),
+                });
+            }
+            mark_fronts(&mut rows);
+            let error = |row: &DesignRow| Some(row.figures.action_flips);
+            let pace = |row: &DesignRow| row.speed.map(|speed| -speed.frames_per_second);
+            let mm2 = |row: &DesignRow| row.process.as_ref()?.mm2;
+            let energy = |row: &DesignRow| Some(row.process.as_ref()?.energy?.nj_per_region);
+            let front = |costs: &dyn Fn(&DesignRow) -> Vec<Option<f64>>| unbeaten(&rows, costs);
+            let area = front(&|row| vec![error(row), mm2(row)]);
+            let least = front(&|row| vec![error(row), energy(row)]);
+            let all = front(&|row| vec![error(row), pace(row), mm2(row)]);
+            for (index, row) in rows.iter().enumerate() {
+                let found = [row.front.area, row.front.energy, row.front.all];
+                assert_eq!(found, [area[index], least[index], all[index]], "seed {seed}: {row:?}");
+                differing += usize::from(row.front.area != row.front.energy);
+                unknown += usize::from(mm2(row).is_none());
+            }
+        }
+        assert!(differing > 100 && unknown > 100, "{differing}, {unknown}");
     }
 
     #[test]

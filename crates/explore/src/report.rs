@@ -22,7 +22,7 @@ use foveate_pictures::page::{
     number_text,
 };
 
-use crate::{DesignRow, Exploration, ExploreError, RefusedCombination};
+use crate::{DesignRow, Exploration, ExploreError, FrontMembership, RefusedCombination};
 use card::PointCard;
 use colour::PointGrouping;
 use setting::PointSettings;
@@ -89,7 +89,12 @@ pub(crate) fn render_page(exploration: &Exploration) -> Result<String, ExploreEr
     let titles: Vec<String> = rows.iter().map(|row| card::mark_title(row, &settings)).collect();
     let mut plots = scatter::plots(exploration, &rows, &groupings, &titles);
     plots.extend(threshold::plots(&settings, &rows, &titles));
-    let groups = MeasuredGroups { area: areas, link: exploration.link_bits_per_second.is_some() };
+    let groups = MeasuredGroups {
+        area: areas,
+        silicon: exploration.library.is_some(),
+        energy: exploration.energy_rate.is_some(),
+        link: exploration.link_bits_per_second.is_some(),
+    };
     let columns = table::columns(&settings, groups);
     let lines: Vec<TableRow> =
         rows.iter().map(|row| table::point_row(row, &settings, groups)).collect();
@@ -143,7 +148,10 @@ pub(crate) fn render_page(exploration: &Exploration) -> Result<String, ExploreEr
 /// Returns all points that a page shows. If there are too many, these are the points of the fronts
 /// and an even sample of the others.
 fn points_shown(rows: &[DesignRow]) -> Vec<&DesignRow> {
-    let front = |row: &DesignRow| row.front.all || row.front.speed || row.front.area;
+    let front = |row: &DesignRow| {
+        let FrontMembership { speed, area, energy, all } = row.front;
+        speed || area || energy || all
+    };
     let fronts = rows.iter().filter(|row| front(row)).count();
     let others = rows.len() - fronts;
     let every = others.div_ceil(MAX_POINTS_SHOWN.saturating_sub(fronts).max(1)).max(1);

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use foveate_footage::InputOptions;
 
-use crate::{DesignSpace, Synthesizer};
+use crate::{DesignSpace, Synthesizer, TargetProcess};
 
 /// The request of an exploration.
 #[derive(Clone, Debug)]
@@ -17,6 +17,24 @@ pub struct ExploreRequest<'a> {
     pub inputs: &'a [PathBuf],
     /// The options for reading the inputs.
     pub input: &'a InputOptions,
-    /// The synthesizer, for areas; without it the figures have no areas.
-    pub synthesizer: Option<&'a Synthesizer>,
+    /// The synthesis of the designs; without it the figures have no areas.
+    pub synthesis: Option<SynthesisRequest<'a>>,
+}
+
+/// The synthesis of the designs of an exploration.
+#[derive(Clone, Copy, Debug)]
+pub struct SynthesisRequest<'a> {
+    /// The synthesizer, for areas in LUTs.
+    pub synthesizer: &'a Synthesizer,
+    /// A process in whose cells designs are measured, too.
+    pub process: Option<ProcessRequest<'a>>,
+}
+
+/// The measurement of designs in a process.
+#[derive(Clone, Copy, Debug)]
+pub struct ProcessRequest<'a> {
+    /// The process.
+    pub process: &'a TargetProcess,
+    /// The frames per second of powers. Without it, no energy is measured; it takes half a minute for a design.
+    pub energy_rate: Option<f64>,
 }

@@ -8,8 +8,10 @@ use foveate_fidelity::{ErrorTally, FidelityFigures};
 use serde::Serialize;
 
 use crate::LoadFigures;
-use crate::cost::{DesignArea, SynthesisResult};
+use crate::cost::DesignArea;
 use crate::measure::CameraMeasurement;
+use crate::point_synthesis::SynthesizedPoint;
+use crate::target_process::{ProcessEnergy, ProcessFigures, reachable_clock};
 
 /// A design with its errors, costs and speed.
 #[derive(Clone, Debug, Serialize)]
@@ -31,11 +33,15 @@ pub struct DesignRow {
     pub bytes_per_frame: f64,
     /// The number of clocks from one frame to the next.
     pub clocks_per_frame: u64,
-    /// The clock and the frames per second: at the clock of the space, or else at the clock that is
-    /// estimated from the netlist; `None` without both.
+    /// The clock and the frames per second: at the clock of the space, or at the highest clock in the process,
+    /// if that is lower or the space gives none; without both, at the clock that is estimated for the FPGA;
+    /// `None` without synthesis, too.
     pub speed: Option<FrameRate>,
     /// The area, if it was synthesized.
     pub silicon: Option<DesignArea>,
+    /// The cost in the process, if there is one and the design was mapped to it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub process: Option<ProcessFigures>,
     /// The load on the link over all clips, if the space has a link and the design sends pixels.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub load: Option<LoadFigures>,
@@ -48,10 +54,14 @@ pub struct DesignRow {
 pub struct FrontMembership {
     /// True if the point is on the front of error and speed.
     pub speed: bool,
-    /// True if the point is on the front of error and LUTs of the array.
+    /// True if the point is on the front of error and area of the array: square millimetres with a process,
+    /// LUTs without one. A point without that area is not on it.
     pub area: bool,
-    /// True if the point is on the front of error, speed and LUTs of the array; without areas,
-    /// equal to `speed`.
+    /// True if the point is on the front of error and energy of a region in a frame. A point whose energy was not
+    /// measured is not on it.
+    pub energy: bool,
+    /// True if the point is on the front of error, speed and area of the array; without areas, equal to
+    /// `speed`.
     pub all: bool,
 }
 
@@ -61,13 +71,15 @@ impl DesignRow {
         settings: Vec<String>,
         design: &Design,
         measured: &[&CameraMeasurement],
-        synthesized: Option<SynthesisResult>,
+        synthesized: SynthesizedPoint,
         clock_mhz: Option<u32>,
     ) -> Option<Self> {
         let figures = sum_tallies(measured)?.figures();
         let clocks_per_frame = design.timing().clocks_per_frame();
-        let given = clock_mhz.map(|mhz| FrameRate::at_given_clock(mhz.into(), clocks_per_frame));
-        let estimated = synthesized.as_ref().and_then(|synthesized| synthesized.speed);
+        let SynthesizedPoint { fpga, process } = synthesized;
+        let clock = reachable_clock(clock_mhz.map(f64::from), process.as_ref());
+        let given = clock.map(|mhz| FrameRate::at_given_clock(mhz, clocks_per_frame));
+        let estimated = fpga.as_ref().and_then(|fpga| fpga.speed);
         Some(Self {
             number,
             settings,
@@ -76,7 +88,8 @@ impl DesignRow {
             bytes_per_frame: bytes_per_frame(design, &figures),
             clocks_per_frame,
             speed: given.or(estimated),
-            silicon: synthesized.map(|synthesized| synthesized.silicon),
+            silicon: fpga.map(|fpga| fpga.silicon),
+            process,
             figures,
             load: None,
             front: FrontMembership::default(),
@@ -86,6 +99,11 @@ impl DesignRow {
     /// Returns the LUTs of the array, including those used as memory, with two SRL16 in one LUT.
     pub(crate) fn luts(&self) -> Option<f64> {
         self.silicon.as_ref().map(|silicon| count_to_f64(silicon.array.lut_total_packed))
+    }
+
+    /// Returns the measured energy.
+    pub(crate) fn energy(&self) -> Option<&ProcessEnergy> {
+        self.process.as_ref().and_then(|process| process.energy.as_ref())
     }
 }
 

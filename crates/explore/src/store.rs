@@ -9,7 +9,9 @@ use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
 use foveate_camera::CameraConfig;
-use foveate_design::DesignConfig;
+use foveate_design::{Design, DesignConfig};
+use foveate_energy::ENERGY_FORMAT_VERSION;
+use foveate_estimate::SiliconReport;
 use foveate_footage::{ComparedInput, InputOptions};
 use foveate_link::ArrayLink;
 use foveate_staging::write_file;
@@ -24,6 +26,8 @@ use crate::ExploreError;
 const FIGURES_VERSION: u32 = 4;
 /// The version of the loads on a link, which grows in the same way.
 const LOAD_VERSION: u32 = 1;
+/// The version of the energies in the cells of a process, which grows in the same way.
+const ENERGY_VERSION: u32 = 1;
 /// The number of hexadecimal digits of a name: 96 bits.
 pub(crate) const KEY_DIGITS: usize = 24;
 const STORE_FOLDER: &str = "measured";
@@ -59,8 +63,49 @@ impl MeasurementStore {
         Ok(write_file(&path, text.as_bytes())?)
     }
 
+    /// Returns a finished measurement, or else measures and keeps it.
+    pub(crate) fn get_or_measure<T: Serialize + DeserializeOwned>(
+        &self,
+        key: &str,
+        measure: impl FnOnce() -> Result<T, ExploreError>,
+    ) -> Result<T, ExploreError> {
+        if let Some(known) = self.get(key) {
+            return Ok(known);
+        }
+        let measured = measure()?;
+        self.put(key, &measured)?;
+        Ok(measured)
+    }
+
     fn measurement_path(&self, key: &str) -> PathBuf {
         self.folder.join(format!("{key}.json"))
+    }
+}
+
+/// The store of the measured energies of designs.
+pub(crate) struct EnergyStore<'a> {
+    pub(crate) measurements: &'a MeasurementStore,
+    /// A text for every clip that identifies its frames.
+    pub(crate) clips: Vec<String>,
+}
+
+impl EnergyStore<'_> {
+    /// Returns the name of the energy of a design on a clip, which is given by its number, for
+    /// `frame_rate` frames per second. `report` tells the RTL, the library and the tools.
+    pub(crate) fn key(
+        &self,
+        clip: usize,
+        frame_rate: f64,
+        design: &Design,
+        report: &SiliconReport,
+    ) -> String {
+        // The report is plain data with text keys, so this cannot fail.
+        let report = serde_json::to_string(report).expect("it has no map with other keys");
+        let (clip, design) = (&self.clips[clip], design.config().to_toml());
+        let text = format!(
+            "energy {ENERGY_VERSION} {ENERGY_FORMAT_VERSION}\n{clip}\n{frame_rate}\n{design}\n{report}"
+        );
+        sha256_hex(text)[..KEY_DIGITS].to_owned()
     }
 }
 

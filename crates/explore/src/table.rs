@@ -8,6 +8,7 @@ use foveate_files::tables::{NamedCells, TableCell};
 
 use crate::LoadFigures;
 use crate::row::{DesignRow, count_to_f64};
+use crate::{ProcessEnergy, ProcessFigures};
 
 /// Returns the cells of a point.
 pub(crate) fn point_cells(row: &DesignRow, axes: &[String]) -> NamedCells {
@@ -38,12 +39,32 @@ pub(crate) fn point_cells(row: &DesignRow, axes: &[String]) -> NamedCells {
             ("logic_levels", of(|area| area.logic_levels.into())),
             ("front_speed", TableCell::Flag(row.front.speed)),
             ("front_area", TableCell::Flag(row.front.area)),
+            ("front_energy", TableCell::Flag(row.front.energy)),
             ("front", TableCell::Flag(row.front.all)),
             ("fingerprint", TableCell::Text(row.fingerprint.clone())),
         ]
         .map(|(name, cell)| (name.to_owned(), cell)),
     );
     cells
+}
+
+/// Returns the cells of the cost in a process, which are empty without one.
+pub(crate) fn process_cells(row: &DesignRow) -> NamedCells {
+    let (process, energy) = (row.process.as_ref(), row.energy());
+    let at = |take: fn(&ProcessFigures) -> f64| TableCell::Real(process.map(take));
+    let of = |take: fn(&ProcessEnergy) -> f64| TableCell::Real(energy.map(take));
+    let bits = process.map(|process| process.memory_bits_without_macro);
+    [
+        ("unit_um2", at(|process| process.unit_um2)),
+        ("mm2", TableCell::Real(process.and_then(|process| process.mm2))),
+        ("memory_bits_without_macro", TableCell::Count(bits)),
+        ("process_clock_mhz", at(|process| process.clock_mhz)),
+        ("nj_per_region", of(|energy| energy.nj_per_region)),
+        ("usual_mw", of(|energy| energy.usual_mw)),
+        ("busiest_mw", of(|energy| energy.busiest_mw)),
+    ]
+    .map(|(name, cell)| (name.to_owned(), cell))
+    .into()
 }
 
 /// Returns the cells of a load, which are empty without one.

@@ -2,7 +2,7 @@
 //! The cost of designs in the cells of a process: area, clock and energy.
 
 use std::ops::Range;
-use std::sync::atomic::Ordering;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use foveate_design::{Design, Organization};
 use foveate_energy::{ActivityClip, EnergyJob, EnergyReport, StretchEnergy, measure_energy};
@@ -13,7 +13,8 @@ use serde::Serialize;
 
 use crate::ExploreError;
 use crate::cost::{ResultsByRtl, Synthesizer};
-use crate::progress::mapping_progress;
+use crate::progress::{energy_progress, mapping_progress};
+use crate::store::EnergyStore;
 
 /// The frames per second for which powers are given if no rate is wanted.
 const DEFAULT_FRAME_RATE: f64 = 30.0;
@@ -77,6 +78,15 @@ impl ProcessFigures {
     }
 }
 
+/// Returns the clock of a design in MHz: the given one, or the highest one in the process if that is lower or
+/// none is given. A chip does not reach a clock above the highest one of its cells.
+pub(crate) fn reachable_clock(given: Option<f64>, process: Option<&ProcessFigures>) -> Option<f64> {
+    match (given, process.map(|process| process.clock_mhz)) {
+        (Some(given), Some(highest)) => Some(given.min(highest)),
+        (given, highest) => given.or(highest),
+    }
+}
+
 impl ProcessEnergy {
     /// Returns the energy over several clips; `None` without clips.
     fn of_clips(reports: &[EnergyReport]) -> Option<Self> {
@@ -104,6 +114,8 @@ pub(crate) struct EnergyClips<'a> {
     pub(crate) clips: Vec<ActivityClip<'a>>,
     /// The frames per second for which powers are given.
     pub(crate) frame_rate: f64,
+    /// The store of finished measurements, if there is one.
+    pub(crate) store: Option<EnergyStore<'a>>,
 }
 
 impl<'a> EnergyClips<'a> {
@@ -116,10 +128,11 @@ impl<'a> EnergyClips<'a> {
     ) -> Self {
         let clip = |(clip, frames)| ActivityClip { clips, clip, frames };
         let clips = frames.enumerate().map(clip).collect();
-        Self { process, clips, frame_rate: frame_rate.unwrap_or(DEFAULT_FRAME_RATE) }
+        let frame_rate = frame_rate.unwrap_or(DEFAULT_FRAME_RATE);
+        Self { process, clips, frame_rate, store: None }
     }
 
-    /// Refuses data sets, whose images have no activity in time.
+    /// Refuses data sets, whose images have no activity in time, and clips that are too short.
     pub(crate) fn check(&self) -> Result<(), ExploreError> {
         Ok(self.clips.iter().try_for_each(ActivityClip::check)?)
     }
@@ -140,17 +153,55 @@ impl<'a> EnergyClips<'a> {
         if !is_measurable {
             return Ok(None);
         }
-        let Synthesizer { toolchain, cache } = synthesizer;
-        let measure = |clip: &ActivityClip<'_>| -> Result<EnergyReport, ExploreError> {
+        let measure = |clip| self.measure_clip(clip, synthesizer, design, report);
+        let reports = self.clips.par_iter().map(measure).collect::<Result<Vec<_>, _>>();
+        if synthesizer.toolchain.cancel_flag().load(Ordering::Relaxed) {
+            return Err(PlaybackError::Interrupted.into());
+        }
+        Ok(ProcessEnergy::of_clips(&reports?))
+    }
+
+    fn measure_clip(
+        &self,
+        clip: &ActivityClip<'_>,
+        Synthesizer { toolchain, cache }: &Synthesizer,
+        design: &Design,
+        report: &SiliconReport,
+    ) -> Result<EnergyReport, ExploreError> {
+        let measure = || -> Result<EnergyReport, ExploreError> {
             let job = EnergyJob::record(clip, design, self.frame_rate, toolchain.cancel_flag())?;
             let inputs = (&self.process.library, report, report.path.mhz);
             Ok(measure_energy(toolchain, cache, &job, inputs)?)
         };
-        let reports = self.clips.par_iter().map(measure).collect::<Result<Vec<_>, _>>();
-        if toolchain.cancel_flag().load(Ordering::Relaxed) {
-            return Err(PlaybackError::Interrupted.into());
+        match &self.store {
+            None => measure(),
+            Some(store) => {
+                let key = store.key(clip.clip, self.frame_rate, design, report);
+                store.measurements.get_or_measure(&key, measure)
+            }
         }
-        Ok(ProcessEnergy::of_clips(&reports?))
+    }
+
+    /// Measures the energy of designs in parallel. `measure` does one.
+    pub(crate) fn measure_all<T: Send, R: Send>(
+        designs: Vec<T>,
+        hooks: &dyn RunHooks,
+        measure: impl Fn(T) -> Result<R, ExploreError> + Sync,
+    ) -> Result<Vec<R>, ExploreError> {
+        let (done, all) = (AtomicUsize::new(0), designs.len());
+        if all > 0 {
+            hooks.progress(&energy_progress(0, all));
+        }
+        let measured = designs.into_par_iter().map(|design| {
+            if hooks.is_cancelled() {
+                return Err(PlaybackError::Interrupted.into());
+            }
+            let result = measure(design)?;
+            let done = 1 + done.fetch_add(1, Ordering::Relaxed);
+            hooks.progress(&energy_progress(done, all));
+            Ok(result)
+        });
+        measured.collect()
     }
 }
 

@@ -5,7 +5,9 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use super::check::FramesPerSecond;
 use super::input::InputArgs;
+use super::process::ProcessArgs;
 use super::threads::ThreadArgs;
 
 /// Measure many designs over clips: error against the ideal camera, area, speed, Pareto front
@@ -17,6 +19,7 @@ use super::threads::ThreadArgs;
 #[command(after_help = "Examples: foveate explore approximations scene:street -o out
           foveate explore space.toml street.mp4 bus.mp4 -o out --resize 640x360
           foveate explore designs street.mp4 -o out --max-frames 60 --no-area
+          foveate explore designs street.mp4 -o out --energy 30 --liberty
           foveate explore space.toml street.mp4 -o out --plan > plan.jsonl
           foveate explore --list
           foveate explore approximations --print > space.toml")]
@@ -31,8 +34,14 @@ pub(crate) struct ExploreArgs {
     #[arg(long, short, value_name = "DIR", required_unless_present_any = ["list", "print"])]
     pub(crate) output: Option<PathBuf>,
     /// Skip synthesis; Yosys is then not needed
-    #[arg(long)]
+    #[arg(long, conflicts_with = "liberty")]
     pub(crate) no_area: bool,
+    #[command(flatten)]
+    pub(crate) process: ProcessArgs,
+    /// Measure the energy in the cells of --liberty, too, and the power at this frame rate. The
+    /// gates of each design are simulated on the clips, which takes half a minute for a design of 784 RPUs
+    #[arg(long, value_name = "RATE", value_parser = FramesPerSecond::parse, requires = "liberty", help_heading = "Silicon")]
+    pub(crate) energy: Option<FramesPerSecond>,
     /// Print the units of work as JSON lines, for machines that share the folder, and measure
     /// nothing. A line has the name of the unit, its inputs, and the file that exists when the unit
     /// is done

@@ -7,7 +7,8 @@ mod units;
 use std::path::Path;
 
 use foveate_explore::{
-    BUILT_IN_SPACES, DesignSpace, Exploration, ExploreError, ExploreRequest, check_folder, explore,
+    BUILT_IN_SPACES, DesignSpace, Exploration, ExploreError, ExploreRequest, ProcessRequest,
+    SynthesisRequest, check_folder, explore,
 };
 use foveate_footage::ImageRelation;
 use foveate_playback::PlaybackError;
@@ -38,7 +39,7 @@ pub(crate) fn run(args: &ExploreArgs) -> Result<(), CliError> {
     warn_about_inputs(&args.inputs, &input);
     let terminal = RunTerminal::new(args.quiet)?;
     let mut request =
-        ExploreRequest { space: &space, inputs: &args.inputs, input: &input, synthesizer: None };
+        ExploreRequest { space: &space, inputs: &args.inputs, input: &input, synthesis: None };
     if args.plan {
         return units::print_plan(&request, folder, &terminal);
     }
@@ -46,7 +47,11 @@ pub(crate) fn run(args: &ExploreArgs) -> Result<(), CliError> {
         return units::run_unit(args, &request, unit, folder, &terminal);
     }
     let synthesizer = if args.no_area { None } else { Some(terminal.synthesizer()?) };
-    request.synthesizer = synthesizer.as_ref();
+    let process = terminal.process(&args.process)?;
+    let energy_rate = args.energy.map(|rate| rate.per_second());
+    let process = process.as_ref().map(|process| ProcessRequest { process, energy_rate });
+    request.synthesis =
+        synthesizer.as_ref().map(|synthesizer| SynthesisRequest { synthesizer, process });
     let found = explore(&request, folder, &terminal);
     terminal.progress.finish();
     let found = match found {

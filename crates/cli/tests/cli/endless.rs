@@ -48,6 +48,16 @@ const CALLS: &[(&str, &str, &str)] = &[
     ("bench", "[INPUT]...", "bench ENDLESS"),
     ("explore", "[SPACE]", "explore ENDLESS scene:street -o out"),
     ("explore", "[INPUT]...", "explore approximations ENDLESS --no-area -o out"),
+    (
+        "explore",
+        "--liberty",
+        "explore approximations scene:street --frames 12 -o out --liberty ENDLESS",
+    ),
+    (
+        "explore",
+        "--macros",
+        "explore approximations scene:street --frames 12 -o out --liberty cells.lib --macros ENDLESS",
+    ),
     ("fit", "<INPUT>...", "fit ENDLESS"),
     ("fit", "--boxes", "fit scene:street --frames 8 --min-recall 50% --boxes ENDLESS"),
     ("fit", "--network", "fit scene:street --frames 8 --network ENDLESS"),

@@ -39,6 +39,7 @@ mod serial;
 mod served;
 mod signals;
 mod silicon;
+mod silicon_explore;
 mod silicon_fit;
 mod simulation;
 mod skipped;

@@ -242,6 +242,28 @@ fn large_memories_get_macros_that_fit() {
 }
 
 #[test]
+fn a_rom_of_any_size_becomes_gates() {
+    if !is_ready() {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    // Yosys makes a ROM of 16 words of 6 bits of the addresses of this core.
+    let serial = [
+        "--set",
+        "frame={width=8,height=8,pixel_bits=3}",
+        "--set",
+        "hardware={organization='serial',fold=4}",
+        "--liberty",
+        "--memory-limit",
+    ];
+    let [below, above] =
+        ["64", "96"].map(|limit| report(dir.path(), &[&SMALL[..], &serial, &[limit]].concat()));
+    for pointer in ["/memory/bits", "/array/area_um2"] {
+        assert_eq!(number(&below, pointer), number(&above, pointer), "{pointer}");
+    }
+}
+
+#[test]
 fn a_compressed_library_gives_the_same_report() {
     if !is_ready() {
         return;

@@ -6,29 +6,11 @@ use std::path::Path;
 use foveate_toolchain::{Tool, Toolchain};
 use serde_json::Value;
 
-use crate::common::silicon::{LIBRARY, is_ready, number};
+use crate::common::silicon::{LIBRARY, is_ready, number, write_clip};
 use crate::common::{foveate, run_in, run_successfully};
 
 /// A small task, of which few designs are synthesized.
 const TASK: [&str; 4] = ["clip", "--set", "region.size=4", "--max-flips=20%"];
-/// The number of frames of the clip.
-const FRAMES: u32 = 20;
-
-/// Writes a clip of 8x8 pixels, in which a square moves faster and faster over a ramp.
-fn write_clip(folder: &Path) {
-    std::fs::create_dir(folder.join("clip")).unwrap();
-    for number in 0..FRAMES {
-        let left = number * number / 8 % 6;
-        let pixel = |x: u32, y: u32| {
-            let is_inside = (left..left + 3).contains(&x) && (2..5).contains(&y);
-            if is_inside { 200 } else { u8::try_from(40 + 6 * x + 4 * y).unwrap() }
-        };
-        let pixels = (0..8).flat_map(|y| (0..8).map(move |x| pixel(x, y)));
-        let file = [b"P5\n8 8\n255\n".to_vec(), pixels.collect()].concat();
-        std::fs::write(folder.join(format!("clip/{number:02}.pgm")), file).unwrap();
-    }
-}
-
 /// Fits a design to the clip. Returns the result and the exit code.
 fn fit(folder: &Path, args: &[&str]) -> (Value, i32) {
     let command = [&["fit", "--json", "--quiet", "-o", "design.toml"], &TASK[..], args];
@@ -52,7 +34,7 @@ fn the_cheapest_design_in_a_process_has_the_figures_of_estimate() {
         return;
     }
     let dir = tempfile::tempdir().unwrap();
-    write_clip(dir.path());
+    write_clip(dir.path(), 8);
     let (found, code) = fit(
         dir.path(),
         &[
@@ -106,7 +88,7 @@ fn the_cheapest_design_is_that_of_the_wanted_cost() {
         return;
     }
     let dir = tempfile::tempdir().unwrap();
-    write_clip(dir.path());
+    write_clip(dir.path(), 8);
     let costs = |(cheapest, syntheses)| {
         let most = ["--max-syntheses", syntheses];
         let (found, _) =
@@ -130,7 +112,7 @@ fn a_design_with_a_large_memory_has_no_energy_and_no_clock_beyond_its_cells() {
         return;
     }
     let dir = tempfile::tempdir().unwrap();
-    write_clip(dir.path());
+    write_clip(dir.path(), 8);
     let args = ["--max-syntheses", "2", "--clock", "9GHz", "--memory-limit", "190", "--liberty"];
     let (found, _) = fit(dir.path(), &args);
     let design = &found["design"];
@@ -154,7 +136,7 @@ fn limits_of_a_process_can_be_binding() {
         return;
     }
     let dir = tempfile::tempdir().unwrap();
-    write_clip(dir.path());
+    write_clip(dir.path(), 8);
     let limits = [("max-mw", "0.000001", "energy"), ("max-mm2", "0.001", "mm2")];
     for (option, limit, cheapest) in limits {
         let limited = format!("--{option}={limit}");

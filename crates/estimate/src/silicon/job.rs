@@ -62,8 +62,7 @@ pub fn map_to_silicon(
     job: &SiliconJob,
     (library, macros): (&LibertyLibrary, &[LibertyLibrary]),
 ) -> Result<SiliconReport, SiliconError> {
-    check_macros(library, macros)?;
-    let gate_area_um2 = check_cells(library)?;
+    let gate_area_um2 = check_libraries(library, macros)?;
     let synthesis = job.design.top_synthesis();
     let mapped = map_array(toolchain, cache, synthesis, library, job.memory_limit)?;
     let unit_kinds = job.design.units(&mapped.netlist, synthesis)?;
@@ -124,6 +123,20 @@ fn unit_and_shared_cells(
     }
     let shared = CellTotals::of_module(&mapped.netlist, library, array, &kinds)?;
     Ok((unit, shared))
+}
+
+/// Checks that a library has the cells that every design needs, and that macros fit to it. Returns the area of a
+/// gate equivalent in square micrometres.
+///
+/// # Errors
+/// Fails if the library lacks a NAND of two inputs with an area or a flip-flop, if a library of macros has no
+/// memory, or if cells and macros have different voltages.
+pub fn check_libraries(
+    library: &LibertyLibrary,
+    macros: &[LibertyLibrary],
+) -> Result<f64, SiliconError> {
+    check_macros(library, macros)?;
+    check_cells(library)
 }
 
 /// Refuses a library without the cells that every design needs. Returns the area of a gate equivalent.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The rule by which Yosys replaces a memory of more than LIMIT bits by the module foveate_memory.
+// The rule by which Yosys replaces a writable memory of more than LIMIT bits by the module foveate_memory.
 (* techmap_celltype = "$mem_v2" *)
 module foveate_memory_cut (RD_CLK, RD_EN, RD_ARST, RD_SRST, RD_ADDR, RD_DATA, WR_CLK, WR_EN, WR_ADDR, WR_DATA);
     parameter MEMID = "";
@@ -32,7 +32,8 @@ module foveate_memory_cut (RD_CLK, RD_EN, RD_ARST, RD_SRST, RD_ADDR, RD_DATA, WR
     input  [WR_PORTS*ABITS-1:0] WR_ADDR;
     input  [WR_PORTS*WIDTH-1:0] WR_DATA;
 
-    wire _TECHMAP_FAIL_ = WIDTH * SIZE <= LIMIT;
+    // A ROM, which Yosys makes of a case statement, has no write port and becomes gates.
+    wire _TECHMAP_FAIL_ = WIDTH * SIZE <= LIMIT || WR_PORTS == 0;
 
     foveate_memory #(.WIDTH(WIDTH), .WORDS(SIZE), .READS(RD_PORTS), .WRITES(WR_PORTS), .CLOCKED(RD_CLK_ENABLE == {RD_PORTS{1'b1}})) u_memory (
         .read_enable(RD_EN), .read_address(RD_ADDR), .read_data(RD_DATA),

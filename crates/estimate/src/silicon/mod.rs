@@ -31,7 +31,7 @@ pub use cell_totals::CellTotals;
 pub use error::SiliconError;
 pub use flat_netlist::{FlatNetlist, HIGH_NET, LOW_NET, NetlistGate, map_unit};
 pub use gate_netlist::gate_netlist;
-pub use job::{SiliconJob, map_to_silicon};
+pub use job::{SiliconJob, check_libraries, map_to_silicon};
 pub use leaves::SiliconLeaf;
 pub use library::LibertyLibrary;
 pub use logic_function::LogicFunction;

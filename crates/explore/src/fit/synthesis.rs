@@ -2,11 +2,8 @@
 //! The synthesis of the designs that may be the cheapest: which designs are synthesized, in which
 //! order, and when that ends.
 
-use std::sync::atomic::{AtomicUsize, Ordering};
-
 use foveate_design::{Design, LaneMemoryKind, Organization};
-use foveate_playback::{PlaybackError, RunHooks};
-use rayon::prelude::*;
+use foveate_playback::RunHooks;
 
 use super::FitRequest;
 use super::camera_search::{CameraSearch, ExaminedCamera};
@@ -17,7 +14,6 @@ use super::simplest_cameras::{cameras_with_fewest_bytes, simplest_cameras};
 use super::slower_designs::{expected_cost, slower_designs};
 use super::synthesized_design::SynthesizedDesign;
 use crate::ExploreError;
-use crate::progress::energy_progress;
 use crate::target_process::EnergyClips;
 
 /// The number of nearest cameras that are built if no camera meets the limits.
@@ -198,21 +194,13 @@ impl FitSynthesis<'_> {
     /// Measures the energy of designs in parallel.
     fn measure_energies(&self, designs: Vec<&mut SynthesizedDesign>) -> Result<(), ExploreError> {
         let Some(clips) = self.energy_clips else { return Ok(()) };
-        let (done, all) = (AtomicUsize::new(0), designs.len());
-        if all > 0 {
-            self.hooks.progress(&energy_progress(0, all));
-        }
-        designs.into_par_iter().try_for_each(|candidate| {
-            if self.hooks.is_cancelled() {
-                return Err(PlaybackError::Interrupted.into());
-            }
+        let measured = EnergyClips::measure_all(designs, self.hooks, |candidate| {
             let Some(report) = &candidate.report else { return Ok(()) };
             let energy = clips.measure(self.request.synthesizer, &candidate.design, report)?;
             candidate.set_energy(energy, self.request);
-            let done = 1 + done.fetch_add(1, Ordering::Relaxed);
-            self.hooks.progress(&energy_progress(done, all));
             Ok(())
-        })
+        });
+        measured.map(drop)
     }
 }
 

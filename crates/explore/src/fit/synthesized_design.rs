@@ -11,7 +11,7 @@ use super::cost_objective::CostObjective;
 use crate::ExploreError;
 use crate::cost::{DesignArea, SynthesisResult};
 use crate::row::count_to_f64;
-use crate::target_process::{EnergyClips, ProcessEnergy, ProcessFigures};
+use crate::target_process::{EnergyClips, ProcessEnergy, ProcessFigures, reachable_clock};
 
 /// A synthesized design.
 #[derive(Clone, Debug)]
@@ -46,13 +46,7 @@ impl SynthesizedDesign {
         let process = report.as_ref().map(ProcessFigures::from_report);
         let at = |mhz| FrameRate::at_given_clock(mhz, clocks_per_frame);
         let given = request.clock_hz.map(|hertz| count_to_f64(hertz) / 1e6);
-        let highest = process.as_ref().map(|process| process.clock_mhz);
-        // A chip does not reach a clock above the highest one of its cells.
-        let clock = match (given, highest) {
-            (Some(given), Some(highest)) => Some(given.min(highest)),
-            (given, highest) => given.or(highest),
-        };
-        let speed = clock.map(at).or(estimated);
+        let speed = reachable_clock(given, process.as_ref()).map(at).or(estimated);
         let mut checks = examined.checks.clone();
         checks.extend(request.constraints.check_speed(speed.as_ref()));
         checks.extend(request.constraints.check_area(&silicon));

@@ -5,8 +5,9 @@ use foveate_estimate::ramb36;
 use foveate_pictures::page::number_text::{grouped, percent, real_number};
 
 use super::setting::PointSettings;
+use super::summary::cost_text;
 use super::table::psnr_cell;
-use crate::DesignRow;
+use crate::{DesignRow, ProcessFigures};
 
 /// The card of a point on the page.
 pub(crate) struct PointCard {
@@ -67,6 +68,7 @@ impl PointCard {
                 ),
             ));
         }
+        facts.extend(row.process.as_ref().map(|process| ("Silicon", process_text(process))));
         let facts = facts.into_iter().map(|(name, text)| (name.to_owned(), text));
         let scores = figures.scores.iter().map(|score| {
             let [max, mean, rms] = [score.max, score.mean, score.rms].map(error_text);
@@ -87,10 +89,8 @@ impl PointCard {
 /// Returns the text of the mark of a point.
 pub(crate) fn mark_title(row: &DesignRow, settings: &PointSettings) -> String {
     let figures = &row.figures;
-    let area =
-        row.luts().map(|luts| format!(", {} LUTs", real_number(luts, 0))).unwrap_or_default();
     format!(
-        "Point {}: {}\n{} % flipped, {} % missed, {} % false alarms\n{}, {} bytes/frame{area}",
+        "Point {}: {}\n{} % flipped, {} % missed, {} % false alarms\n{}, {} bytes/frame{}",
         row.number,
         settings.settings_text(row, None),
         percent(figures.action_flips),
@@ -101,7 +101,34 @@ pub(crate) fn mark_title(row: &DesignRow, settings: &PointSettings) -> String {
             |speed| speed.text()
         ),
         real_number(row.bytes_per_frame, 0),
+        cost_text(row),
     )
+}
+
+/// Returns the cost of a design in a process.
+fn process_text(process: &ProcessFigures) -> String {
+    let mut text = match process.mm2 {
+        Some(mm2) => format!("{mm2:.3} mm²"),
+        None => {
+            let bits = grouped(process.memory_bits_without_macro);
+            format!("no area, because no macro fits {bits} bits of memory")
+        }
+    };
+    text += &format!(
+        "; unit {} µm²; {:.1} MHz at most",
+        real_number(process.unit_um2, 0),
+        process.clock_mhz
+    );
+    match &process.energy {
+        Some(energy) => {
+            text += &format!(
+                "; {:.3} nJ per region and frame; {:.4} mW at {} frames/s, in the busiest stretch {:.4} mW",
+                energy.nj_per_region, energy.usual_mw, energy.frame_rate, energy.busiest_mw
+            );
+        }
+        None => text += "; energy not measured",
+    }
+    text
 }
 
 /// Formats the error of a score with two or three significant digits.

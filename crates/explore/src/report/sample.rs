@@ -67,6 +67,7 @@ pub(crate) fn sample_exploration(space: &str, areas: bool) -> Exploration {
                 array: area(1.0),
                 logic_levels: 9,
             }),
+            process: None,
             load: None,
             front: FrontMembership::default(),
         });
@@ -85,6 +86,8 @@ pub(crate) fn sample_exploration(space: &str, areas: bool) -> Exploration {
         size: (224, 224),
         ideal: space.ideal.to_toml(),
         clock_mhz: space.clock_mhz,
+        library: None,
+        energy_rate: None,
         link_bits_per_second: None,
         axes: space.axes.iter().map(|axis| axis.key.clone()).collect(),
         rows,

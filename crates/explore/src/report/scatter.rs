@@ -10,7 +10,9 @@ use foveate_pictures::page::{
 };
 
 use super::colour::PointGrouping;
-use crate::objective::{BetterDirection, Objective, speed_objective, unbeaten_rows};
+use crate::objective::{
+    BetterDirection, Objective, area_objective, speed_objective, unbeaten_rows,
+};
 use crate::{DesignRow, Exploration};
 
 /// A plot of two objectives, with the front of both.
@@ -32,15 +34,14 @@ struct ObjectiveAxis {
 
 impl ObjectiveAxis {
     /// Creates the axis of an objective, in a unit that people use.
-    fn from_objective(objective: Objective, clock_mhz: Option<u32>) -> Self {
+    fn from_objective(objective: Objective, exploration: &Exploration) -> Self {
         let (title, scale) = match objective {
             Objective::Error => ("flipped actions, %".to_owned(), 100.0),
-            Objective::Speed => match clock_mhz {
-                Some(mhz) => (format!("frames/s at {mhz} MHz"), 1.0),
-                None => ("frames/s at the estimated clock".to_owned(), 1.0),
-            },
+            Objective::Speed => (speed_title(exploration), 1.0),
             Objective::PerClock => ("frames per million clocks".to_owned(), 1e6),
             Objective::Luts => ("LUTs of the array".to_owned(), 1.0),
+            Objective::Mm2 => ("mm² of the array".to_owned(), 1.0),
+            Objective::Energy => ("nJ per region and frame".to_owned(), 1.0),
             Objective::Stale => ("stale relevant regions, %".to_owned(), 100.0),
             Objective::Bytes => ("bytes per frame".to_owned(), 1.0),
             Objective::Ssim => ("SSIM to the ideal's screen".to_owned(), 1.0),
@@ -66,6 +67,16 @@ impl ObjectiveAxis {
     }
 }
 
+/// Returns the title of the axis of speed.
+fn speed_title(exploration: &Exploration) -> String {
+    match (exploration.clock_mhz, &exploration.library) {
+        (Some(mhz), None) => format!("frames/s at {mhz} MHz"),
+        (Some(mhz), Some(_)) => format!("frames/s at {mhz} MHz or the highest clock of the cells"),
+        (None, None) => "frames/s at the estimated clock".to_owned(),
+        (None, Some(_)) => "frames/s at the highest clock of the cells".to_owned(),
+    }
+}
+
 /// Returns every plot of points, in order.
 pub(crate) fn plots(
     exploration: &Exploration,
@@ -73,16 +84,20 @@ pub(crate) fn plots(
     groupings: &[PointGrouping],
     titles: &[String],
 ) -> Vec<PagePlot> {
-    use Objective::{Bytes, Error, Luts, Ssim, Stale};
+    use Objective::{Bytes, Energy, Error, Ssim, Stale};
     let scatter = |id, title, x, y| {
-        let [x, y] =
-            [x, y].map(|objective| ObjectiveAxis::from_objective(objective, exploration.clock_mhz));
+        let [x, y] = [x, y].map(|objective| ObjectiveAxis::from_objective(objective, exploration));
         ScatterPlot { id, title, x, y }
     };
     let mut scatters =
         vec![scatter("speed", "Error against speed", speed_objective(rows.iter().copied()), Error)];
-    if rows.iter().any(|row| row.silicon.is_some()) {
-        scatters.push(scatter("area", "Error against area", Luts, Error));
+    let area = area_objective(rows.iter().copied());
+    let is_known = |objective: Objective| rows.iter().any(|row| objective.value_of(row).is_some());
+    if is_known(area) {
+        scatters.push(scatter("area", "Error against area", area, Error));
+    }
+    if is_known(Energy) {
+        scatters.push(scatter("energy", "Error against energy", Energy, Error));
     }
     scatters.push(scatter("stale", "Staleness against bytes", Bytes, Stale));
     scatters.push(scatter("picture", "Picture against bytes", Bytes, Ssim));

@@ -8,7 +8,8 @@ use foveate_pictures::page::HeadingFigure;
 use foveate_pictures::page::number_text::{MISSING, counted, grouped, percent, real_number};
 
 use super::setting::PointSettings;
-use crate::{DesignRow, Exploration, objective};
+use crate::objective::{Objective, area_objective, speed_objective};
+use crate::{DesignRow, Exploration};
 
 /// Returns the title of the page.
 pub(crate) fn title(exploration: &Exploration) -> String {
@@ -33,7 +34,8 @@ pub(crate) fn facts(exploration: &Exploration) -> Vec<HeadingFigure> {
     let Exploration { rows, refused, clips, axes, .. } = exploration;
     let frames = clips.iter().map(|clip| clip.frames).sum();
     let front = rows.iter().filter(|row| row.front.all).count();
-    let area = rows.iter().any(|row| row.silicon.is_some());
+    let area = area_objective(rows);
+    let has_areas = rows.iter().any(|row| area.value_of(row).is_some());
     let (width, height) = exploration.size;
     let fact = |name, value, note| HeadingFigure { name, value, note };
     let count = |count: usize| grouped(count as u64);
@@ -49,7 +51,7 @@ pub(crate) fn facts(exploration: &Exploration) -> Vec<HeadingFigure> {
         fact(
             "Pareto front",
             count(front),
-            if area { "of error, speed and area" } else { "of error and speed" }.to_owned(),
+            if has_areas { "of error, speed and area" } else { "of error and speed" }.to_owned(),
         ),
         fact("Refused", count(refused.len()), "combinations".to_owned()),
         fact("Frames", grouped(frames), counted(clips.len(), "clip")),
@@ -59,13 +61,26 @@ pub(crate) fn facts(exploration: &Exploration) -> Vec<HeadingFigure> {
     let link = exploration.link_bits_per_second.map(LinkRate);
     let note = "behind each design".to_owned();
     facts.extend(link.map(|rate| HeadingFigure { name: "Link", value: rate.to_string(), note }));
+    facts.extend(cells(exploration));
     facts
+}
+
+/// Returns the library of the process, if there is one.
+fn cells(exploration: &Exploration) -> Option<HeadingFigure> {
+    let value = exploration.library.clone()?;
+    let note = match exploration.energy_rate {
+        Some(rate) => format!("power at {rate} frames/s"),
+        None => "energy not measured".to_owned(),
+    };
+    Some(HeadingFigure { name: "Cells", value, note })
 }
 
 /// Returns the clock of the frame rates.
 fn clock(exploration: &Exploration) -> HeadingFigure {
     let of_rows = || exploration.rows.iter().filter_map(|row| row.speed);
+    let is_limited = exploration.library.is_some();
     let (value, note) = match (exploration.clock_mhz, of_rows().next()) {
+        (Some(mhz), _) if is_limited => (format!("{mhz} MHz"), "or the highest of the cells"),
         (Some(mhz), _) => (format!("{mhz} MHz"), "given by the space"),
         (None, Some(_)) => {
             let slowest = of_rows().map(|speed| speed.clock_mhz).fold(f64::INFINITY, f64::min);
@@ -73,7 +88,10 @@ fn clock(exploration: &Exploration) -> HeadingFigure {
             let [slowest, fastest] = [slowest, fastest].map(|mhz| real_number(mhz, 0));
             let both = format!("{slowest} to {fastest} MHz");
             let value = if slowest == fastest { format!("{slowest} MHz") } else { both };
-            (value, "estimated for each design")
+            (
+                value,
+                if is_limited { "the highest of the cells" } else { "estimated for each design" },
+            )
         }
         (None, None) => (MISSING.to_owned(), "not known without synthesis"),
     };
@@ -92,27 +110,40 @@ pub(crate) fn findings(rows: &[DesignRow], settings: &PointSettings) -> Vec<Stri
     };
     let flips =
         |row: &DesignRow| format!("{} % flipped actions", percent(row.figures.action_flips));
-    let luts = |row: &DesignRow| {
-        row.luts().map(|luts| format!(", {} LUTs", real_number(luts, 0))).unwrap_or_default()
-    };
+    let small = area_objective(rows);
     let mut found = Vec::new();
     let mut say = |what: &str, row: Option<&DesignRow>| {
         found.extend(row.map(|row| {
             let settings = settings.settings_text(row, None);
-            let (flips, speed, luts) = (flips(row), speed(row), luts(row));
-            format!("{what}: point {} ({settings}), {flips} at {speed}{luts}.", row.number)
+            let (flips, speed, costs) = (flips(row), speed(row), cost_text(row));
+            format!("{what}: point {} ({settings}), {flips} at {speed}{costs}.", row.number)
         }));
     };
     say("Smallest error", front().min_by(by_error));
-    let fast = objective::speed_objective(rows);
+    let fast = speed_objective(rows);
     let fastest = front().max_by(|one, other| {
         let order = fast.value_of(one).partial_cmp(&fast.value_of(other));
         order.unwrap_or(Ordering::Equal).then_with(|| by_error(other, one))
     });
     say("Fastest", fastest);
-    let smallest = front()
-        .filter(|row| row.luts().is_some())
-        .min_by(|one, other| one.luts().partial_cmp(&other.luts()).unwrap_or(Ordering::Equal));
-    say("Smallest area", smallest);
+    say("Smallest area", least(front(), small));
+    say("Least energy", least(rows.iter().filter(|row| row.front.energy), Objective::Energy));
     found
+}
+
+/// Returns the point with the smallest value of an objective.
+fn least<'a>(
+    rows: impl Iterator<Item = &'a DesignRow>,
+    objective: Objective,
+) -> Option<&'a DesignRow> {
+    let known = rows.filter_map(|row| Some((objective.value_of(row)?, row)));
+    known.min_by(|one, other| one.0.total_cmp(&other.0)).map(|(_, row)| row)
+}
+
+/// Returns the known costs of a point, each behind a comma.
+pub(crate) fn cost_text(row: &DesignRow) -> String {
+    let luts = row.luts().map(|luts| format!(", {} LUTs", real_number(luts, 0)));
+    let mm2 = Objective::Mm2.value_of(row).map(|mm2| format!(", {mm2:.3} mm²"));
+    let energy = Objective::Energy.value_of(row).map(|nj| format!(", {nj:.3} nJ per region"));
+    [luts, mm2, energy].into_iter().flatten().collect()
 }

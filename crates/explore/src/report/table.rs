@@ -7,7 +7,7 @@ use foveate_pictures::page::{TableCell, TableColumn, TableRow};
 
 use super::setting::{PointSettings, axes_set};
 use crate::row::count_to_f64 as number;
-use crate::{DesignArea, DesignRow, LoadFigures};
+use crate::{DesignArea, DesignRow, LoadFigures, ProcessEnergy, ProcessFigures};
 
 /// The name, unit and meaning of every figure of the table.
 const FIGURES: [(&str, &str, &str); 8] = [
@@ -38,10 +38,25 @@ const LINK: [(&str, &str, &str); 4] = [
     ("lost", "regions", "regions that a raster core loses without this buffer"),
 ];
 
+/// The name, unit and meaning of the figures in a process.
+const SILICON: [(&str, &str, &str); 3] = [
+    ("unit", "µm²", "area of one RPU, lane or core in the cells of the process"),
+    ("array", "mm²", "area of the array in the cells of the process, with memory macros"),
+    ("clock", "MHz", "highest clock in the cells of the process"),
+];
+
+/// The name, unit and meaning of the figures of energy.
+const ENERGY: [(&str, &str, &str); 2] = [
+    ("energy", "nJ", "energy of a region in a frame, in the usual stretches of the clips"),
+    ("power", "mW", "power of the array in the usual stretches of the clips"),
+];
+
 /// The groups of columns that a table has only if they were measured.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MeasuredGroups {
     pub(crate) area: bool,
+    pub(crate) silicon: bool,
+    pub(crate) energy: bool,
     pub(crate) link: bool,
 }
 
@@ -69,10 +84,12 @@ pub(crate) fn columns(settings: &PointSettings, groups: MeasuredGroups) -> Vec<T
         ("frames", "/s", "frames per second at that clock"),
     ];
     let areas = if groups.area { &AREA[..] } else { &[] };
+    let silicon = if groups.silicon { &SILICON[..] } else { &[] };
+    let energy = if groups.energy { &ENERGY[..] } else { &[] };
     let links = if groups.link { &LINK[..] } else { &[] };
     axes.into_iter()
         .chain(FIGURES.into_iter().chain(speed).map(figure))
-        .chain(areas.iter().chain(links).copied().map(figure))
+        .chain(areas.iter().chain(silicon).chain(energy).chain(links).copied().map(figure))
         .collect()
 }
 
@@ -129,10 +146,38 @@ pub(crate) fn point_row(
             },
         ]);
     }
+    if groups.silicon {
+        cells.extend(silicon_cells(row.process.as_ref()));
+    }
+    if groups.energy {
+        cells.extend(energy_cells(row.energy()));
+    }
     if groups.link {
         cells.extend(link_cells(row.load.as_ref()));
     }
     TableRow { id: row.number.to_string(), number: row.number as u64, best: row.front.all, cells }
+}
+
+/// Returns the cells of the figures in a process, in the order of [`SILICON`].
+fn silicon_cells(process: Option<&ProcessFigures>) -> [TableCell; SILICON.len()] {
+    [
+        real_cell(process.map(|process| process.unit_um2), 0),
+        real_cell(process.and_then(|process| process.mm2), 3),
+        real_cell(process.map(|process| process.clock_mhz), 1),
+    ]
+}
+
+/// Returns the cells of the figures of energy, in the order of [`ENERGY`].
+fn energy_cells(energy: Option<&ProcessEnergy>) -> [TableCell; ENERGY.len()] {
+    [
+        real_cell(energy.map(|energy| energy.nj_per_region), 3),
+        real_cell(energy.map(|energy| energy.usual_mw), 4),
+    ]
+}
+
+fn real_cell(value: Option<f64>, digits: usize) -> TableCell {
+    let cell = |value| TableCell::number(real_number(value, digits), Some(value));
+    value.map_or_else(TableCell::missing, cell)
 }
 
 /// Returns the cells of a load on the link, in the order of [`LINK`].

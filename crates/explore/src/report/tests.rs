@@ -272,7 +272,7 @@ fn of_very_many_points_the_fronts_are_shown() {
     let row = sample.rows[0].clone();
     let fronts: usize = sample.rows.iter().map(|row| usize::from(row.front.all)).sum();
     let more = (0..5000).map(|index| {
-        let front = crate::FrontMembership { speed: false, area: false, all: false };
+        let front = FrontMembership::default();
         DesignRow { number: 1000 + index, front, ..row.clone() }
     });
     sample.rows.extend(more);

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use foveate_emit::Top;
 use foveate_estimate::{EstimateJob, estimate};
 use foveate_explore::{
-    DesignSpace, Exploration, ExploreError, ExploreRequest, Synthesizer, explore,
+    DesignSpace, Exploration, ExploreError, ExploreRequest, SynthesisRequest, Synthesizer, explore,
 };
 use foveate_footage::InputOptions;
 use foveate_playback::PlaybackError;
@@ -32,7 +32,7 @@ pub(crate) fn run(
     let inputs: Vec<PathBuf> = inputs.iter().map(PathBuf::from).collect();
     let input = InputOptions { frames: Some(12), ..InputOptions::default() };
     explore(
-        &ExploreRequest { space: &space, inputs: &inputs, input: &input, synthesizer: None },
+        &ExploreRequest { space: &space, inputs: &inputs, input: &input, synthesis: None },
         output,
         hooks,
     )
@@ -95,16 +95,16 @@ fn a_point_has_the_clock_of_its_netlist() {
     for (clock, name) in [("", "own"), ("clock_mhz = 50\n", "given")] {
         let space = &DesignSpace::from_toml(&format!("{clock}{TINY}")).unwrap();
         let output = folder.path().join(name);
-        let tools = &synthesizer;
-        let request =
-            ExploreRequest { space, inputs: &inputs, input: &input, synthesizer: Some(tools) };
+        let synthesis = Some(SynthesisRequest { synthesizer: &synthesizer, process: None });
+        let request = ExploreRequest { space, inputs: &inputs, input: &input, synthesis };
         let found = explore(&request, &output, &RecordingHooks::new()).unwrap();
         let points = lines(&output.join("points.csv"));
         let at = points[0].split(',').position(|column| column == "clock_mhz").unwrap();
         for (row, line) in found.rows.iter().zip(&points[1..]) {
             let design = row.config.validate().unwrap();
             let job = EstimateJob::for_design(&design, Top::Rcm);
-            let clock = estimate(&tools.toolchain, &tools.cache, &job).unwrap().clock.unwrap();
+            let clock =
+                estimate(&synthesizer.toolchain, &synthesizer.cache, &job).unwrap().clock.unwrap();
             let expected = if name == "own" { clock.mhz } else { 50.0 };
             let speed = row.speed.unwrap();
             let clocks = f64::from(u32::try_from(row.clocks_per_frame).unwrap());
@@ -132,13 +132,12 @@ fn a_core_on_axi_is_counted_as_a_whole() {
     let space = &DesignSpace::from_toml(ON_AXI).unwrap();
     let inputs = [PathBuf::from("scene:street")];
     let input = InputOptions { frames: Some(2), ..InputOptions::default() };
-    let tools = &synthesizer;
-    let request =
-        ExploreRequest { space, inputs: &inputs, input: &input, synthesizer: Some(tools) };
+    let synthesis = Some(SynthesisRequest { synthesizer: &synthesizer, process: None });
+    let request = ExploreRequest { space, inputs: &inputs, input: &input, synthesis };
     let found = explore(&request, &folder.path().join("out"), &RecordingHooks::new()).unwrap();
     let design = found.rows[0].config.validate().unwrap();
     let job = EstimateJob::for_design(&design, Top::Rcm);
-    let report = estimate(&tools.toolchain, &tools.cache, &job).unwrap();
+    let report = estimate(&synthesizer.toolchain, &synthesizer.cache, &job).unwrap();
     let silicon = found.rows[0].silicon.as_ref().unwrap();
     assert_eq!(
         (silicon.array, silicon.logic_levels),

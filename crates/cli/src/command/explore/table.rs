@@ -5,12 +5,12 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use foveate_estimate::ramb36;
-use foveate_explore::{DesignRow, Exploration};
+use foveate_explore::{DesignRow, Exploration, ProcessEnergy};
 
 /// A column: its name, and the function that writes its cells.
 type PointColumn = (&'static str, fn(&DesignRow) -> String);
 
-const COLUMNS: [PointColumn; 16] = [
+const COLUMNS: [PointColumn; 20] = [
     ("flips %", |row| percent(row.figures.action_flips)),
     ("SRS %", |row| percent(row.figures.srs_flips)),
     ("TRS %", |row| percent(row.figures.trs_flips)),
@@ -30,6 +30,15 @@ const COLUMNS: [PointColumn; 16] = [
     ("frames/s", |row| row.speed.map_or_else(String::new, |speed| speed.rate_text())),
     ("LUT/FF/mem", unit_cell),
     ("array LUT", array_cell),
+    ("unit um2", |row| {
+        row.process.as_ref().map_or_else(String::new, |process| format!("{:.0}", process.unit_um2))
+    }),
+    ("mm2", |row| {
+        let mm2 = row.process.as_ref().and_then(|process| process.mm2);
+        mm2.map_or_else(String::new, |mm2| format!("{mm2:.3}"))
+    }),
+    ("nJ/region", |row| energy_cell(row, |energy| energy.nj_per_region)),
+    ("mW", |row| energy_cell(row, |energy| energy.usual_mw)),
 ];
 
 fn percent(share: f64) -> String {
@@ -72,19 +81,32 @@ fn array_cell(row: &DesignRow) -> String {
     })
 }
 
+fn energy_cell(row: &DesignRow, take: fn(&ProcessEnergy) -> f64) -> String {
+    let energy = row.process.as_ref().and_then(|process| process.energy.as_ref());
+    energy.map_or_else(String::new, |energy| format!("{:.4}", take(energy)))
+}
+
+/// Returns the columns that have a figure for a point.
+fn measured_columns(found: &Exploration) -> Vec<PointColumn> {
+    let has_figure = |(_, cell): &PointColumn| found.rows.iter().any(|row| !cell(row).is_empty());
+    COLUMNS.into_iter().filter(has_figure).collect()
+}
+
 const NOTE: &str = "flips, SRS, TRS: regions whose decision differs from that of the ideal camera. \
      IoU: of the active areas. score errors: largest, mean, RMS; edge, corner, segment and \
      temporal as share of a region's pixels, mad, range, surface and flow in grey levels, variance in \
      their squares. PSNR and SSIM of the screen against the ideal's, and against the input. stale: largest and mean \
      difference of the screen from the scene in relevant regions in grey levels, and frames in a \
      row that a region was stale. MHz: the clock, with its range if it is estimated. frames/s: at \
-     that clock. LUT/FF/mem: one RPU or lane.";
+     that clock. LUT/FF/mem: one RPU or lane. unit um2, mm2, nJ/region, mW: in the cells of the \
+     process; lower bounds.";
 
 pub(super) fn markdown(found: &Exploration) -> String {
-    let names: Vec<&str> = COLUMNS.iter().map(|(name, _)| *name).collect();
+    let columns = measured_columns(found);
+    let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
     let mut text = format!("| | {} |\n|{}\n", names.join(" | "), " --- |".repeat(names.len() + 1));
     for row in &found.rows {
-        let cells: Vec<String> = COLUMNS.iter().map(|(_, cell)| cell(row)).collect();
+        let cells: Vec<String> = columns.iter().map(|(_, cell)| cell(row)).collect();
         let _ = writeln!(
             text,
             "| {} | {} |",
@@ -100,9 +122,10 @@ pub(super) fn markdown(found: &Exploration) -> String {
 pub(super) fn text(folder: &Path, found: &Exploration, width: usize) -> String {
     let front: Vec<&DesignRow> = found.rows.iter().filter(|row| row.front.all).collect();
     let mut text = format!(
-        "{} points, {} of them on the Pareto front of flips, speed and (if synthesized) LUTs:\n",
+        "{} points, {} of them on the Pareto front of flips, speed and {}:\n",
         found.rows.len(),
-        front.len()
+        front.len(),
+        if found.library.is_some() { "area in mm2" } else { "(if synthesized) LUTs" }
     );
     for row in front {
         let _ = writeln!(text, "\n{}: {}", row.number, found.settings_text(row));

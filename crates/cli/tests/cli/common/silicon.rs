@@ -22,3 +22,21 @@ pub(crate) fn is_ready() -> bool {
 pub(crate) fn number(value: &Value, pointer: &str) -> f64 {
     value.pointer(pointer).and_then(Value::as_f64).unwrap_or_else(|| panic!("{pointer}: {value}"))
 }
+
+/// The number of frames of [`write_clip`].
+const FRAMES: u32 = 20;
+
+/// Writes the folder `clip` with frames of `width` x 8 pixels, in which a square moves faster and faster over a ramp.
+pub(crate) fn write_clip(folder: &Path, width: u32) {
+    std::fs::create_dir(folder.join("clip")).unwrap();
+    for number in 0..FRAMES {
+        let left = number * number / 8 % 6;
+        let pixel = |x: u32, y: u32| {
+            let is_inside = (left..left + 3).contains(&x) && (2..5).contains(&y);
+            if is_inside { 200 } else { u8::try_from(40 + 6 * x + 4 * y).unwrap() }
+        };
+        let pixels = (0..8).flat_map(|y| (0..width).map(move |x| pixel(x, y)));
+        let file = [format!("P5\n{width} 8\n255\n").into_bytes(), pixels.collect()].concat();
+        std::fs::write(folder.join(format!("clip/{number:02}.pgm")), file).unwrap();
+    }
+}

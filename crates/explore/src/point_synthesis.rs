@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The synthesis of the points of an exploration: area and clock on an FPGA, and area, clock and energy in the
+//! cells of a process.
+
+use std::collections::BTreeMap;
+
+use foveate_design::Design;
+use foveate_estimate::SiliconReport;
+use foveate_playback::{PlaybackError, RunHooks};
+
+use crate::cost::{ResultsByRtl, SynthesisResult};
+use crate::footage::ExplorationFootage;
+use crate::request::{ProcessRequest, SynthesisRequest};
+use crate::store::{EnergyStore, MeasurementStore};
+use crate::target_process::{EnergyClips, ProcessEnergy, ProcessFigures};
+use crate::{ExploreError, Synthesizer};
+
+/// The results of synthesizing a point.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct SynthesizedPoint {
+    /// The area and clock on an FPGA; `None` if Yosys failed.
+    pub(crate) fpga: Option<SynthesisResult>,
+    /// The figures in the process; `None` without one, or if a tool failed.
+    pub(crate) process: Option<ProcessFigures>,
+}
+
+/// The synthesis of the points of an exploration.
+pub(crate) struct PointSynthesis<'a> {
+    synthesizer: &'a Synthesizer,
+    process: Option<ProcessRequest<'a>>,
+    /// The clips on which energies are measured.
+    energy_clips: Option<EnergyClips<'a>>,
+    hooks: &'a dyn RunHooks,
+}
+
+impl<'a> PointSynthesis<'a> {
+    /// Prepares the synthesis. Energies that `store` has are not measured again.
+    ///
+    /// # Errors
+    /// Fails if the energy is wanted, and an input is a data set, is too short or cannot be read.
+    pub(crate) fn new(
+        request: SynthesisRequest<'a>,
+        footage: &'a ExplorationFootage<'_>,
+        store: &'a MeasurementStore,
+        hooks: &'a dyn RunHooks,
+    ) -> Result<Self, ExploreError> {
+        let SynthesisRequest { synthesizer, process } = request;
+        let energy_clips = process.and_then(|ProcessRequest { process, energy_rate }| {
+            let clips = 0..footage.clips.clips().len();
+            let whole = clips.clone().map(|_| 0..u64::MAX);
+            let energy_clips = EnergyClips::new(process, &footage.clips, whole, Some(energy_rate?));
+            let texts = clips.map(|clip| {
+                let (clip, ideal) = footage.clip_texts(clip);
+                format!("{clip}\n{ideal}")
+            });
+            let store = EnergyStore { measurements: store, clips: texts.collect() };
+            Some(EnergyClips { store: Some(store), ..energy_clips })
+        });
+        energy_clips.iter().try_for_each(EnergyClips::check)?;
+        Ok(Self { synthesizer, process, energy_clips, hooks })
+    }
+
+    /// Synthesizes designs. Returns the results, and the errors of tools. A design that fails does not lose the
+    /// others.
+    ///
+    /// # Errors
+    /// Fails if the hooks cancel.
+    pub(crate) fn synthesize(
+        &self,
+        designs: &[Design],
+    ) -> Result<(Vec<SynthesizedPoint>, Vec<String>), ExploreError> {
+        let areas = self.synthesizer.synthesize_designs(designs.iter(), self.hooks)?;
+        let mut problems = problems_of(&areas);
+        let areas = areas.iter().map(|area| area.ok().cloned());
+        let mut points: Vec<_> =
+            areas.map(|fpga| SynthesizedPoint { fpga, process: None }).collect();
+        if let Some(ProcessRequest { process, .. }) = self.process {
+            let mapped = process.map_designs(self.synthesizer, designs.iter(), self.hooks)?;
+            problems.extend(problems_of(&mapped));
+            let reports: Vec<Option<&SiliconReport>> = mapped.iter().map(Result::ok).collect();
+            let mut energies = self.measure_energies(designs, &reports, &mut problems)?;
+            for (index, (point, report)) in points.iter_mut().zip(reports).enumerate() {
+                let energy = energies.remove(&index);
+                let figures = report.map(ProcessFigures::from_report);
+                point.process = figures.map(|figures| ProcessFigures { energy, ..figures });
+            }
+        }
+        Ok((points, problems))
+    }
+
+    /// Returns the energies of designs that can be measured, by their index.
+    fn measure_energies(
+        &self,
+        designs: &[Design],
+        reports: &[Option<&SiliconReport>],
+        problems: &mut Vec<String>,
+    ) -> Result<BTreeMap<usize, ProcessEnergy>, ExploreError> {
+        let Some(clips) = &self.energy_clips else { return Ok(BTreeMap::new()) };
+        let mapped = designs.iter().zip(reports).enumerate();
+        let mapped =
+            mapped.filter_map(|(index, (design, report))| Some((index, design, (*report)?)));
+        let measure =
+            |(index, design, report)| match clips.measure(self.synthesizer, design, report) {
+                Err(ExploreError::Playback(PlaybackError::Interrupted)) => {
+                    Err(PlaybackError::Interrupted.into())
+                }
+                result => Ok((index, result)),
+            };
+        let mut energies = BTreeMap::new();
+        for (index, result) in EnergyClips::measure_all(mapped.collect(), self.hooks, measure)? {
+            match result {
+                Ok(energy) => energies.extend(energy.map(|energy| (index, energy))),
+                Err(error) => problems.push(problem_text(index, &error)),
+            }
+        }
+        Ok(energies)
+    }
+}
+
+fn problems_of<T: Send + Clone>(results: &ResultsByRtl<T>) -> Vec<String> {
+    let errors = results.iter().enumerate();
+    errors.filter_map(|(index, result)| Some(problem_text(index, result.err()?))).collect()
+}
+
+fn problem_text(index: usize, error: &ExploreError) -> String {
+    format!("point {}: {error}", index + 1)
+}
