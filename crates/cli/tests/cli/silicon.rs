@@ -263,6 +263,26 @@ fn a_rom_of_any_size_becomes_gates() {
     }
 }
 
+/// OpenSTA of 2019 adds the wire load that a library chooses, and later versions do not.
+#[test]
+fn wire_loads_of_a_library_are_in_no_figure() {
+    if !is_ready() {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let plain = fs::read_to_string(LIBRARY).unwrap();
+    let (head, cells) = plain.split_once("\ncell (").unwrap();
+    let wires = "wire_load (\"far\") { capacitance : 1; resistance : 1; area : 1; slope : 100; \
+                 fanout_length (1, 100); }\n default_wire_load : \"far\";";
+    let with = format!("{head}\n{wires}\ncell ({cells}");
+    fs::write(dir.path().join("wires.lib"), with).unwrap();
+    let both = ["wires.lib", LIBRARY].map(|path| [&SMALL[..], &["--liberty", path]].concat());
+    let [with, without] = both.map(|args| report(dir.path(), &args));
+    for figure in ["/path", "/leakage_nw", "/array"] {
+        assert_eq!(with.pointer(figure), without.pointer(figure), "{figure}");
+    }
+}
+
 #[test]
 fn a_compressed_library_gives_the_same_report() {
     if !is_ready() {

@@ -107,6 +107,12 @@ impl LibertyLibrary {
         (CELLS.to_owned(), self.text.clone())
     }
 
+    /// Returns the file of the library for a timer, without a choice of wire loads: wires are in no figure, and
+    /// OpenSTA of 2019 adds those that the library chooses, while later versions do not.
+    pub(super) fn source_without_wires(&self) -> Source {
+        (CELLS.to_owned(), without_wire_loads(&self.text))
+    }
+
     /// Returns the area of a gate equivalent, that of the smallest NAND of two inputs.
     pub(super) fn gate_area(&self) -> Option<f64> {
         self.areas_of(CellRole::Nand2).map(|(_, area)| area).reduce(f64::min)
@@ -201,6 +207,22 @@ fn nominal_voltage(library: &LibertyGroup) -> Option<f64> {
     library.attribute("nom_voltage").and_then(number).or_else(of_conditions)
 }
 
+/// Replaces the attributes by which a library chooses wire loads by comments.
+fn without_wire_loads(text: &str) -> String {
+    const CHOICES: [&str; 3] =
+        ["default_wire_load", "default_wire_load_selection", "wire_load_selection"];
+    let is_of_name = |letter: char| letter.is_alphanumeric() || letter == '_';
+    let (mut replaced, mut rest) = (String::with_capacity(text.len()), text);
+    while let Some(start) = rest.find(is_of_name) {
+        let (before, at) = rest.split_at(start);
+        let (name, behind) = at.split_at(at.find(|letter| !is_of_name(letter)).unwrap_or(at.len()));
+        let is_choice = CHOICES.contains(&name) && behind.trim_start().starts_with(':');
+        replaced.extend([before, if is_choice { "comment" } else { name }]);
+        rest = behind;
+    }
+    replaced + rest
+}
+
 /// Returns the unit of times, which is a nanosecond if the library does not say.
 fn time_unit_ns(library: &LibertyGroup) -> f64 {
     match library.attribute("time_unit").map(str::trim) {
@@ -241,6 +263,17 @@ mod tests {
         cell (RAM) { area : 5000; memory () { type : ram; address_width : 6; word_width : 32; }
             bus (A_DOUT) { memory_read () { address : A; } } bus (B_DOUT) { memory_read () { address : B; } } }
     }"#;
+
+    #[test]
+    fn no_wire_load_is_chosen_for_a_timer() {
+        let text = "default_wire_load : \"Small\" ; default_wire_load_mode : top;\n\
+                    default_wire_load_selection:\"s\";\n  wire_load_selection : \"s\";\n\
+                    wire_load_selection (\"s\") { wire_load_from_area (0, 1, \"Small\"); } wire_load (\"Small\") {}";
+        let expected = "comment : \"Small\" ; default_wire_load_mode : top;\n\
+                        comment:\"s\";\n  comment : \"s\";\n\
+                        wire_load_selection (\"s\") { wire_load_from_area (0, 1, \"Small\"); } wire_load (\"Small\") {}";
+        assert_eq!(without_wire_loads(text), expected);
+    }
 
     #[test]
     fn cells_have_areas_and_roles() {

@@ -66,7 +66,7 @@ pub(super) fn time_module(
          puts \"{END_MARK}\"\n",
         period = PERIOD_NS / unit
     );
-    let files = vec![library.source(), (NETLIST.to_owned(), verilog.to_owned())];
+    let files = vec![library.source_without_wires(), (NETLIST.to_owned(), verilog.to_owned())];
     let log = opensta::run(toolchain, cache, &OpenStaJob { files, script })?;
     let failed = |reason: &str| SiliconError::Timing { reason: reason.to_owned() };
     if let Some(error) = log.lines().find(|line| line.starts_with("Error")) {
