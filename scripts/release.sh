@@ -69,10 +69,10 @@ step_netlists() {
     foveate cosim --netlist --preset bare "${small[@]}" --level rcm --grid 4x3 --set "spatial=[$features]" \
         --set "denoise.filter='binomial3x3'" --set "hardware.organization='raster'" --set "hardware.pipelining='deep'"
     # Classes of regions, plain and deep.
-    local zoned=("${small[@]}" --level rcm --grid 3x2 --set "spatial=[{feature='edge'},$features]" --set "zones={}")
-    foveate cosim --netlist --preset bare "${zoned[@]}"
-    foveate cosim --netlist --preset steady "${zoned[@]}" --set "hardware.pipelining='deep'" --set "render.irrelevant='mean'"
-    foveate cosim --netlist --preset bare "${zoned[@]}" --set "hardware.organization='serial'" --set hardware.fold=2
+    local zoned=("${small[@]}" --level rcm --set "spatial=[{feature='edge'},$features]" --set "zones={}")
+    foveate cosim --netlist --preset bare "${zoned[@]}" --grid 3x2
+    foveate cosim --netlist --preset steady "${zoned[@]}" --grid 3x2 --set "hardware.pipelining='deep'" --set "render.irrelevant='mean'"
+    foveate cosim --netlist --preset bare "${zoned[@]}" --grid 3x2 --set "hardware.organization='serial'" --set hardware.fold=2
     foveate cosim --netlist --preset steady "${zoned[@]}" --grid 4x3 --set "hardware.organization='raster'" --set "render.irrelevant='mean'"
 }
 step_area() { foveate estimate --compare --markdown; }
