@@ -71,7 +71,7 @@ impl EnergyJob {
     /// what the model makes of it. Powers are for `frame_rate` frames per second.
     ///
     /// # Errors
-    /// Fails if the clip cannot be read, is too short or does not fit, for organization `raster`, if there is
+    /// Fails if the clip cannot be read, is not complete, is too short or does not fit, for organization `raster`, if there is
     /// no room for the vectors, or if `cancel` was set.
     pub fn record(
         clip: &ActivityClip<'_>,
@@ -81,8 +81,8 @@ impl EnergyJob {
     ) -> Result<Self, EnergyError> {
         check_organization(design.organization())?;
         let is_fast = design.timing().clocks_per_frame() <= FAST_FRAME;
-        let (frames, stretches) = clip.stretches(design, if is_fast { 4 } else { 1 })?;
-        let shown = clip.read_stretches(&stretches, design.pixel_bits())?;
+        let (frames, stretches) = clip.stretches(design, if is_fast { 4 } else { 1 }, cancel)?;
+        let shown = clip.read_stretches(&stretches, design.pixel_bits(), cancel)?;
         let mut recordings = BTreeMap::new();
         for stretch in &stretches {
             if let Entry::Vacant(entry) = recordings.entry(stretch.first) {

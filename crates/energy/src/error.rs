@@ -48,6 +48,14 @@ pub enum EnergyError {
         /// The number that is needed.
         needed: u64,
     },
+    /// The clip ended early.
+    #[error("the clip `{clip}` is not complete, so no energy is given: {problem}")]
+    IncompleteClip {
+        /// The name of the clip.
+        clip: String,
+        /// The reason why it ended.
+        problem: String,
+    },
     /// The organization cannot be measured.
     #[error(
         "the energy of organization `raster` is not measured, because its memories are macros, whose accesses are \

@@ -3,13 +3,14 @@
 
 use std::collections::BTreeMap;
 use std::ops::Range;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use foveate_design::Design;
 use foveate_engine::Engine;
 use foveate_estimate::count_to_f64;
 use foveate_footage::SourceKind;
 use foveate_frame::Frame;
-use foveate_playback::{ClipPlayer, FrameDepths, PlaybackError, RunClips};
+use foveate_playback::{ClipPlayer, FrameDepths, PlaybackError, PlayedFrame, RunClips};
 
 use crate::error::EnergyError;
 
@@ -59,19 +60,47 @@ impl ActivityClip<'_> {
     pub fn check(&self) -> Result<(), EnergyError> {
         let Range { start, end } = self.frames;
         let mut found = 0;
-        for played in self.open()?.limited_to(end.min(start.saturating_add(Self::MIN_FRAMES))) {
-            found += u64::from(self.frames.contains(&played?.number));
-        }
+        let needed = end.min(start.saturating_add(Self::MIN_FRAMES));
+        self.play(needed, &AtomicBool::new(false), |played| {
+            found += u64::from(self.frames.contains(&played.number));
+            Ok(())
+        })?;
         self.check_length(found)
     }
 
     fn check_length(&self, found: u64) -> Result<(), EnergyError> {
         let needed = Self::MIN_FRAMES;
         if found < needed {
-            let clip = self.clips.clips()[self.clip].name.clone();
-            return Err(EnergyError::TooShort { clip, found, needed });
+            return Err(EnergyError::TooShort { clip: self.name().to_owned(), found, needed });
         }
         Ok(())
+    }
+
+    fn name(&self) -> &str {
+        &self.clips.clips()[self.clip].name
+    }
+
+    /// Plays the frames before frame `end`.
+    fn play(
+        &self,
+        end: u64,
+        cancel: &AtomicBool,
+        mut take: impl FnMut(PlayedFrame) -> Result<(), EnergyError>,
+    ) -> Result<(), EnergyError> {
+        let mut player = self.open()?.limited_to(end);
+        for played in player.by_ref() {
+            if cancel.load(Ordering::Relaxed) {
+                return Err(PlaybackError::Interrupted.into());
+            }
+            take(played?)?;
+        }
+        match player.problem() {
+            None => Ok(()),
+            Some(problem) => Err(EnergyError::IncompleteClip {
+                clip: self.name().to_owned(),
+                problem: problem.to_owned(),
+            }),
+        }
     }
 
     fn open(&self) -> Result<ClipPlayer, EnergyError> {
@@ -88,17 +117,18 @@ impl ActivityClip<'_> {
         &self,
         design: &Design,
         length: u64,
+        cancel: &AtomicBool,
     ) -> Result<(u64, Vec<ClipStretch>), EnergyError> {
         let mut engine = Engine::new(design.camera());
         let mut sent = Vec::new();
-        for played in self.open()?.limited_to(self.frames.end) {
-            let played = played?;
+        self.play(self.frames.end, cancel, |played| {
             let frames = FrameDepths::from_frame(&played, [design.pixel_bits()])?;
             let outcome = frames.show_to(&mut engine)?;
             if self.frames.contains(&played.number) {
                 sent.push(outcome.active.iter().filter(|active| **active).count() as u64);
             }
-        }
+            Ok(())
+        })?;
         self.check_length(sent.len() as u64)?;
         let mut stretches = choose_stretches(&sent, u64::from(design.regions()), length);
         stretches.iter_mut().for_each(|stretch| stretch.first += self.frames.start);
@@ -110,19 +140,20 @@ impl ActivityClip<'_> {
         &self,
         stretches: &[ClipStretch],
         pixel_bits: u32,
+        cancel: &AtomicBool,
     ) -> Result<BTreeMap<u64, Frame>, EnergyError> {
         let is_wanted =
             |number| stretches.iter().any(|stretch| stretch.simulated().contains(&number));
         let last = stretches.iter().map(|stretch| stretch.simulated().end).max().unwrap_or(0);
         let mut frames = BTreeMap::new();
-        for played in self.clips.open(self.clip)?.limited_to(last) {
-            let played = played?;
+        self.play(last, cancel, |played| {
             if is_wanted(played.number) {
                 let depths = FrameDepths::from_frame(&played, [pixel_bits])?;
                 let frame = depths.frame_at(pixel_bits).to_frame().map_err(PlaybackError::from)?;
                 frames.insert(played.number, frame);
             }
-        }
+            Ok(())
+        })?;
         Ok(frames)
     }
 }

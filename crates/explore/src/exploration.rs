@@ -3,6 +3,7 @@
 
 use serde::Serialize;
 
+use crate::objective::{FrontObjectives, Objective};
 use crate::point::settings_text;
 use crate::{DesignRow, RefusedCombination};
 
@@ -43,6 +44,22 @@ pub struct Exploration {
 }
 
 impl Exploration {
+    /// Returns the objectives of the fronts of area and of all.
+    pub(crate) fn front_objectives(&self) -> FrontObjectives {
+        FrontObjectives::of_rows(&self.rows, self.library.is_some())
+    }
+
+    /// Returns the figures of the front of all, for a sentence: `error, speed and area`.
+    #[must_use]
+    pub fn front_figures(&self) -> &'static str {
+        let FrontObjectives { area, has_areas, .. } = self.front_objectives();
+        match (has_areas, area) {
+            (false, _) => "error and speed",
+            (true, Objective::Mm2) => "error, speed and area in mm²",
+            (true, _) => "error, speed and area in LUTs",
+        }
+    }
+
     /// Returns the settings of a point as `key = value`.
     #[must_use]
     pub fn settings_text(&self, row: &DesignRow) -> String {

@@ -4,6 +4,7 @@
 
 use std::path::Path;
 
+use foveate_design::Design;
 use foveate_files::tables::{NamedCells, Table};
 use foveate_playback::RunHooks;
 
@@ -13,7 +14,7 @@ use crate::link_load::LoadMeasurement;
 use crate::measure::CameraMeasurement;
 use crate::objective::mark_fronts;
 use crate::point_synthesis::{PointSynthesis, SynthesizedPoint};
-use crate::row::DesignRow;
+use crate::row::{ClockSource, DesignRow};
 use crate::store::MeasurementStore;
 use crate::table::{error_cells, load_cells, name_cells, point_cells, process_cells};
 use crate::{ClipRow, Exploration, ExploreError, ExploreRequest, LoadFigures};
@@ -37,81 +38,104 @@ pub fn explore(
     output: &Path,
     hooks: &dyn RunHooks,
 ) -> Result<Exploration, ExploreError> {
-    let space = request.space;
     // The files of designs are not known before the clips have been opened.
     open_continued(output)?.check_files(TABLES.into_iter().chain([MARK_FILE]))?;
-    let ExplorationWork { footage, points, refused, cameras, camera_of_point } =
-        ExplorationWork::new(request, None, hooks)?;
+    let work = ExplorationWork::new(request, None, hooks)?;
+    request.synthesis.map_or(Ok(()), |own| PointSynthesis::check(own, &work.footage))?;
     // The names are checked now, because writing the files may come hours later.
-    let names = (1..=points.len()).map(design_file).chain(TABLES.map(str::to_owned));
+    let names = (1..=work.points.len()).map(design_file).chain(TABLES.map(str::to_owned));
     let names: Vec<String> = names.chain([MARK_FILE.to_owned()]).collect();
     open_continued(output)?.check_files(names.iter().map(String::as_str))?;
     claim_folder(output)?;
     write_mark(output, UNFINISHED_MARK)?;
     let store = MeasurementStore::open(output)?;
-    let designs =
-        points.iter().map(|point| point.config.validate()).collect::<Result<Vec<_>, _>>()?;
-    let synthesis = request.synthesis;
-    let synthesis =
-        synthesis.map(|synthesis| PointSynthesis::new(synthesis, &footage, &store, hooks));
-    let synthesis = synthesis.transpose()?;
-    let loads = LoadMeasurement::of_space(space, &footage);
-    let loads = loads.map(|loads| loads.measure_clips(&designs, &store)).transpose()?;
-    let loads = loads.unwrap_or_default();
-    let measured = footage.measure_clips(&cameras, &store)?;
-    let (synthesized, failed) = match &synthesis {
-        Some(synthesis) => synthesis.synthesize(&designs)?,
-        None => (vec![SynthesizedPoint::default(); designs.len()], Vec::new()),
-    };
-    let mut rows = Vec::new();
-    for (index, (point, (design, synthesized))) in
-        points.iter().zip(designs.iter().zip(synthesized)).enumerate()
-    {
-        let of_point: Vec<&CameraMeasurement> =
-            measured.iter().map(|clip| &clip[camera_of_point[index]]).collect();
-        let settings = point.settings.clone();
-        let clock = space.clock_mhz;
-        let row = DesignRow::new(index + 1, settings, design, &of_point, synthesized, clock);
-        let load = LoadFigures::of_clips(loads.iter().map(|clip| clip[index]));
-        rows.extend(row.map(|row| DesignRow { load, ..row }));
-    }
-    mark_fronts(&mut rows);
-    let of_clip =
-        |(subject, measured): (&foveate_footage::ComparedInput, &Vec<CameraMeasurement>)| ClipRow {
-            name: subject.name.clone(),
-            // Every space has at least one design.
-            frames: measured[0].tally.figures().frames,
-        };
-    let problem =
-        |(subject, measured): (&foveate_footage::ComparedInput, &Vec<CameraMeasurement>)| {
-            let problem = measured.iter().find_map(|one| one.problem.clone());
-            problem.map(|problem| format!("{}: {problem}", subject.name))
-        };
-    let process = request.synthesis.and_then(|synthesis| synthesis.process);
-    let exploration = Exploration {
-        format_version: 5,
-        program: concat!("foveate ", env!("CARGO_PKG_VERSION")).to_owned(),
-        clips: footage.clips.clips().iter().zip(&measured).map(of_clip).collect(),
-        size: footage.size,
-        ideal: space.ideal.to_toml(),
-        clock_mhz: space.clock_mhz,
-        library: process.map(|own| own.process.library.name.clone()),
-        energy_rate: process.and_then(|own| own.energy_rate),
-        link_bits_per_second: space.link.map(|rate| rate.0),
-        axes: space.axes.iter().map(|axis| axis.key.clone()).collect(),
-        rows,
-        refused,
-        problems: footage
-            .clips
-            .clips()
-            .iter()
-            .zip(&measured)
-            .filter_map(problem)
-            .chain(failed)
-            .collect(),
-    };
-    write(&exploration, (&measured, &camera_of_point), &loads, output)?;
+    let results = PointResults::measure(request, &work, &store, hooks)?;
+    let measured = (results.cameras.as_slice(), work.camera_of_point.as_slice());
+    let exploration = results.exploration(request, &work);
+    write(&exploration, measured, &results.loads, output)?;
     Ok(exploration)
+}
+
+/// The results of all measurements and syntheses.
+struct PointResults {
+    /// The measurement of every clip and camera.
+    cameras: Vec<Vec<CameraMeasurement>>,
+    /// The load of every clip and point; empty if the space has no link.
+    loads: Vec<Vec<Option<LoadFigures>>>,
+    designs: Vec<Design>,
+    synthesized: Vec<SynthesizedPoint>,
+    /// The designs for which a tool failed, with the reasons.
+    failed: Vec<String>,
+}
+
+impl PointResults {
+    fn measure(
+        request: &ExploreRequest<'_>,
+        work: &ExplorationWork<'_>,
+        store: &MeasurementStore,
+        hooks: &dyn RunHooks,
+    ) -> Result<Self, ExploreError> {
+        let designs = work.points.iter().map(|point| point.config.validate());
+        let designs = designs.collect::<Result<Vec<_>, _>>()?;
+        let loads = LoadMeasurement::of_space(request.space, &work.footage);
+        let loads = loads.map(|loads| loads.measure_clips(&designs, store)).transpose()?;
+        let cameras = work.footage.measure_clips(&work.cameras, store)?;
+        let (synthesized, failed) = match request.synthesis {
+            Some(own) => {
+                PointSynthesis::new(own, &work.footage, store, hooks).synthesize(&designs)?
+            }
+            None => (vec![SynthesizedPoint::default(); designs.len()], Vec::new()),
+        };
+        Ok(Self { cameras, loads: loads.unwrap_or_default(), designs, synthesized, failed })
+    }
+
+    /// Returns the points with their figures and fronts.
+    fn rows(&self, work: &ExplorationWork<'_>, clocks: ClockSource) -> Vec<DesignRow> {
+        let mut rows = Vec::new();
+        for (index, (design, synthesized)) in self.designs.iter().zip(&self.synthesized).enumerate()
+        {
+            let camera = work.camera_of_point[index];
+            let measured: Vec<&CameraMeasurement> =
+                self.cameras.iter().map(|clip| &clip[camera]).collect();
+            let settings = work.points[index].settings.clone();
+            let row = (index + 1, settings);
+            let row = DesignRow::new(row, design, &measured, synthesized.clone(), clocks);
+            let load = LoadFigures::of_clips(self.loads.iter().map(|clip| clip[index]));
+            rows.extend(row.map(|row| DesignRow { load, ..row }));
+        }
+        mark_fronts(&mut rows, clocks.has_process);
+        rows
+    }
+
+    fn exploration(&self, request: &ExploreRequest<'_>, work: &ExplorationWork<'_>) -> Exploration {
+        let space = request.space;
+        let process = request.synthesis.and_then(|synthesis| synthesis.process);
+        let clocks = ClockSource { given_mhz: space.clock_mhz, has_process: process.is_some() };
+        let (mut clips, mut problems) = (Vec::new(), Vec::new());
+        for (input, measured) in work.footage.clips.clips().iter().zip(&self.cameras) {
+            // Every space has at least one design.
+            let frames = measured[0].tally.figures().frames;
+            clips.push(ClipRow { name: input.name.clone(), frames });
+            let problem = measured.iter().find_map(|one| one.problem.as_ref());
+            problems.extend(problem.map(|problem| format!("{}: {problem}", input.name)));
+        }
+        problems.extend(self.failed.iter().cloned());
+        Exploration {
+            format_version: 5,
+            program: concat!("foveate ", env!("CARGO_PKG_VERSION")).to_owned(),
+            clips,
+            size: work.footage.size,
+            ideal: space.ideal.to_toml(),
+            clock_mhz: space.clock_mhz,
+            library: process.map(|own| own.process.library.name.clone()),
+            energy_rate: process.and_then(|own| own.energy_rate),
+            link_bits_per_second: space.link.map(|rate| rate.0),
+            axes: space.axes.iter().map(|axis| axis.key.clone()).collect(),
+            rows: self.rows(work, clocks),
+            refused: work.refused.clone(),
+            problems,
+        }
+    }
 }
 
 fn write(

@@ -69,16 +69,29 @@ impl Objective {
     }
 }
 
-/// Returns the objective of speed: frames per second, or frames per clock if no clock is known.
-pub(crate) fn speed_objective<'a>(rows: impl IntoIterator<Item = &'a DesignRow>) -> Objective {
-    let known = rows.into_iter().any(|row| row.speed.is_some());
-    if known { Objective::Speed } else { Objective::PerClock }
+/// The objectives of the fronts of an exploration, besides the error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct FrontObjectives {
+    /// The frames per second, or the frames per clock if no clock is known.
+    pub(crate) speed: Objective,
+    /// The area: square millimetres with a process, LUTs without one.
+    pub(crate) area: Objective,
+    /// True if some point has an area.
+    pub(crate) has_areas: bool,
 }
 
-/// Returns the objective of area: square millimetres in the cells of a process, or LUTs if there is no process.
-pub(crate) fn area_objective<'a>(rows: impl IntoIterator<Item = &'a DesignRow>) -> Objective {
-    let is_mapped = rows.into_iter().any(|row| row.process.is_some());
-    if is_mapped { Objective::Mm2 } else { Objective::Luts }
+impl FrontObjectives {
+    /// Returns the objectives of some points. `has_process` is true if they were to be mapped to the cells of a
+    /// process.
+    pub(crate) fn of_rows(rows: &[DesignRow], has_process: bool) -> Self {
+        let has_clocks = rows.iter().any(|row| row.speed.is_some());
+        let area = if has_process { Objective::Mm2 } else { Objective::Luts };
+        Self {
+            speed: if has_clocks { Objective::Speed } else { Objective::PerClock },
+            area,
+            has_areas: rows.iter().any(|row| area.value_of(row).is_some()),
+        }
+    }
 }
 
 /// Returns whether each point is unbeaten: no other point is as good in all objectives and better
@@ -91,13 +104,13 @@ pub(crate) fn unbeaten_rows<const N: usize>(
     pareto_front(&rows.iter().map(costs).collect::<Vec<_>>())
 }
 
-/// Marks the fronts of an exploration.
-pub(crate) fn mark_fronts(rows: &mut [DesignRow]) {
+/// Marks the fronts of an exploration. `has_process` is true if its points were to be mapped to the cells of a
+/// process.
+pub(crate) fn mark_fronts(rows: &mut [DesignRow], has_process: bool) {
     use Objective::{Energy, Error};
+    let FrontObjectives { speed: fast, area: small, has_areas } =
+        FrontObjectives::of_rows(rows, has_process);
     let all: Vec<&DesignRow> = rows.iter().collect();
-    let fast = speed_objective(all.iter().copied());
-    let small = area_objective(all.iter().copied());
-    let has_areas = all.iter().any(|row| small.value_of(row).is_some());
     let speed = unbeaten_rows(&all, [Error, fast]);
     let area = unbeaten_rows(&all, [Error, small]);
     let energy = unbeaten_rows(&all, [Error, Energy]);
@@ -164,7 +177,7 @@ mod tests {
         let (mut told_apart, mut without_area) = (0, 0);
         for seed in 0..200 {
             let mut rows = points(seed);
-            mark_fronts(&mut rows);
+            mark_fronts(&mut rows, false);
             for row in &rows {
                 let on = |fast: bool, luts: bool| {
                     let known = (!luts || row.silicon.is_some()) && (!fast || row.speed.is_some());
@@ -218,7 +231,7 @@ mod tests {
                     }),
                 });
             }
-            mark_fronts(&mut rows);
+            mark_fronts(&mut rows, true);
             let error = |row: &DesignRow| Some(row.figures.action_flips);
             let pace = |row: &DesignRow| row.speed.map(|speed| -speed.frames_per_second);
             let mm2 = |row: &DesignRow| row.process.as_ref()?.mm2;
@@ -241,7 +254,7 @@ mod tests {
     fn without_clocks_fewer_clocks_per_frame_are_faster() {
         let mut rows = points(1);
         rows.iter_mut().for_each(|row| row.speed = None);
-        mark_fronts(&mut rows);
+        mark_fronts(&mut rows, false);
         let beaten = |row: &DesignRow| {
             rows.iter().any(|other| {
                 let error = other.figures.action_flips.total_cmp(&row.figures.action_flips);
@@ -256,7 +269,7 @@ mod tests {
     fn without_areas_the_front_is_that_of_speed() {
         let mut rows = points(1);
         rows.iter_mut().for_each(|row| row.silicon = None);
-        mark_fronts(&mut rows);
+        mark_fronts(&mut rows, false);
         assert!(rows.iter().any(|row| row.front.speed));
         assert!(rows.iter().all(|row| row.front.all == row.front.speed && !row.front.area));
     }

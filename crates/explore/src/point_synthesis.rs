@@ -34,30 +34,35 @@ pub(crate) struct PointSynthesis<'a> {
 }
 
 impl<'a> PointSynthesis<'a> {
-    /// Prepares the synthesis. Energies that `store` has are not measured again.
+    /// Checks what a long run would find at its end.
     ///
     /// # Errors
-    /// Fails if the energy is wanted, and an input is a data set, is too short or cannot be read.
+    /// Fails if the energy is wanted, and an input is a data set, is too short or cannot be read, or the library
+    /// has no energies.
+    pub(crate) fn check(
+        request: SynthesisRequest<'_>,
+        footage: &ExplorationFootage<'_>,
+    ) -> Result<(), ExploreError> {
+        energy_clips(request.process, footage).iter().try_for_each(EnergyClips::check)
+    }
+
+    /// Prepares the synthesis. Energies that `store` has are not measured again.
     pub(crate) fn new(
         request: SynthesisRequest<'a>,
         footage: &'a ExplorationFootage<'_>,
         store: &'a MeasurementStore,
         hooks: &'a dyn RunHooks,
-    ) -> Result<Self, ExploreError> {
+    ) -> Self {
         let SynthesisRequest { synthesizer, process } = request;
-        let energy_clips = process.and_then(|ProcessRequest { process, energy_rate }| {
-            let clips = 0..footage.clips.clips().len();
-            let whole = clips.clone().map(|_| 0..u64::MAX);
-            let energy_clips = EnergyClips::new(process, &footage.clips, whole, Some(energy_rate?));
-            let texts = clips.map(|clip| {
+        let energy_clips = energy_clips(process, footage).map(|clips| {
+            let texts = (0..footage.clips.clips().len()).map(|clip| {
                 let (clip, ideal) = footage.clip_texts(clip);
                 format!("{clip}\n{ideal}")
             });
             let store = EnergyStore { measurements: store, clips: texts.collect() };
-            Some(EnergyClips { store: Some(store), ..energy_clips })
+            EnergyClips { store: Some(store), ..clips }
         });
-        energy_clips.iter().try_for_each(EnergyClips::check)?;
-        Ok(Self { synthesizer, process, energy_clips, hooks })
+        Self { synthesizer, process, energy_clips, hooks }
     }
 
     /// Synthesizes designs. Returns the results, and the errors of tools. A design that fails does not lose the
@@ -115,6 +120,16 @@ impl<'a> PointSynthesis<'a> {
         }
         Ok(energies)
     }
+}
+
+/// Returns the whole clips, if energies are wanted.
+fn energy_clips<'a>(
+    request: Option<ProcessRequest<'a>>,
+    footage: &'a ExplorationFootage<'_>,
+) -> Option<EnergyClips<'a>> {
+    let ProcessRequest { process, energy_rate } = request?;
+    let whole = footage.clips.clips().iter().map(|_| 0..u64::MAX);
+    Some(EnergyClips::new(process, &footage.clips, whole, Some(energy_rate?)))
 }
 
 fn problems_of<T: Send + Clone>(results: &ResultsByRtl<T>) -> Vec<String> {

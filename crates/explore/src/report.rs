@@ -61,7 +61,9 @@ struct AboutSection<'a> {
 struct MainSections<'a> {
     groupings: Vec<PointGrouping>,
     plots: Vec<PagePlot>,
-    areas: bool,
+    has_synthesis: bool,
+    /// The figures of the front of all, for a sentence.
+    front_figures: &'static str,
     front: SortableTable<'a>,
     points: SortableTable<'a>,
     cards: Vec<PointCard>,
@@ -84,13 +86,13 @@ struct ColourScript {
 pub(crate) fn render_page(exploration: &Exploration) -> Result<String, ExploreError> {
     let settings = PointSettings::new(exploration);
     let rows = points_shown(&exploration.rows);
-    let areas = exploration.rows.iter().any(|row| row.silicon.is_some());
+    let has_synthesis = exploration.rows.iter().any(|row| row.silicon.is_some());
     let groupings = colour::groupings(&settings, &rows);
     let titles: Vec<String> = rows.iter().map(|row| card::mark_title(row, &settings)).collect();
     let mut plots = scatter::plots(exploration, &rows, &groupings, &titles);
     plots.extend(threshold::plots(&settings, &rows, &titles));
     let groups = MeasuredGroups {
-        area: areas,
+        area: has_synthesis,
         silicon: exploration.library.is_some(),
         energy: exploration.energy_rate.is_some(),
         link: exploration.link_bits_per_second.is_some(),
@@ -113,13 +115,14 @@ pub(crate) fn render_page(exploration: &Exploration) -> Result<String, ExploreEr
         clip_names: summary::clips(exploration),
         camera: setting::camera_line(&exploration.ideal),
         ideal: exploration.ideal.trim_end(),
-        findings: summary::findings(&exploration.rows, &settings),
+        findings: summary::findings(exploration, &settings),
         refused,
     };
     let main = MainSections {
         groupings,
         plots,
-        areas,
+        has_synthesis,
+        front_figures: exploration.front_figures(),
         front: table("f", false, lines.iter().filter(|line| line.best).collect()),
         points: table("p", true, lines.iter().collect()),
         cards: rows.iter().map(|row| PointCard::new(row, &settings)).collect(),

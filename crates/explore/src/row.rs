@@ -33,9 +33,9 @@ pub struct DesignRow {
     pub bytes_per_frame: f64,
     /// The number of clocks from one frame to the next.
     pub clocks_per_frame: u64,
-    /// The clock and the frames per second: at the clock of the space, or at the highest clock in the process,
-    /// if that is lower or the space gives none; without both, at the clock that is estimated for the FPGA;
-    /// `None` without synthesis, too.
+    /// The clock and the frames per second: at the clock of the space, or else at the clock that is estimated
+    /// for the FPGA; `None` without both. With a process, at the highest clock of its cells, or at that of the
+    /// space if it is lower; `None` if the design could not be mapped.
     pub speed: Option<FrameRate>,
     /// The area, if it was synthesized.
     pub silicon: Option<DesignArea>,
@@ -65,21 +65,42 @@ pub struct FrontMembership {
     pub all: bool,
 }
 
+/// The clocks that give designs their frame rates.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ClockSource {
+    /// The clock of the space in MHz.
+    pub(crate) given_mhz: Option<u32>,
+    /// True if the cells of a process limit the clock.
+    pub(crate) has_process: bool,
+}
+
+impl ClockSource {
+    /// Returns the speed of a design. Clocks of cells and of an FPGA are not compared: a design that could not be
+    /// mapped to the cells has none.
+    fn speed(self, clocks_per_frame: u64, synthesized: &SynthesizedPoint) -> Option<FrameRate> {
+        let SynthesizedPoint { fpga, process } = synthesized;
+        let clock = reachable_clock(self.given_mhz.map(f64::from), process.as_ref());
+        let at_clock = clock.map(|mhz| FrameRate::at_given_clock(mhz, clocks_per_frame));
+        match (self.has_process, process) {
+            (true, None) => None,
+            (true, Some(_)) => at_clock,
+            (false, _) => at_clock.or_else(|| fpga.as_ref()?.speed),
+        }
+    }
+}
+
 impl DesignRow {
     pub(crate) fn new(
-        number: usize,
-        settings: Vec<String>,
+        (number, settings): (usize, Vec<String>),
         design: &Design,
         measured: &[&CameraMeasurement],
         synthesized: SynthesizedPoint,
-        clock_mhz: Option<u32>,
+        clocks: ClockSource,
     ) -> Option<Self> {
         let figures = sum_tallies(measured)?.figures();
         let clocks_per_frame = design.timing().clocks_per_frame();
+        let speed = clocks.speed(clocks_per_frame, &synthesized);
         let SynthesizedPoint { fpga, process } = synthesized;
-        let clock = reachable_clock(clock_mhz.map(f64::from), process.as_ref());
-        let given = clock.map(|mhz| FrameRate::at_given_clock(mhz, clocks_per_frame));
-        let estimated = fpga.as_ref().and_then(|fpga| fpga.speed);
         Some(Self {
             number,
             settings,
@@ -87,7 +108,7 @@ impl DesignRow {
             fingerprint: design.fingerprint(),
             bytes_per_frame: bytes_per_frame(design, &figures),
             clocks_per_frame,
-            speed: given.or(estimated),
+            speed,
             silicon: fpga.map(|fpga| fpga.silicon),
             process,
             figures,

@@ -132,8 +132,10 @@ impl<'a> EnergyClips<'a> {
         Self { process, clips, frame_rate, store: None }
     }
 
-    /// Refuses data sets, whose images have no activity in time, and clips that are too short.
+    /// Refuses data sets, whose images have no activity in time, clips that are too short, and a library without
+    /// what every energy needs.
     pub(crate) fn check(&self) -> Result<(), ExploreError> {
+        self.process.library.cell_models([])?;
         Ok(self.clips.iter().try_for_each(ActivityClip::check)?)
     }
 

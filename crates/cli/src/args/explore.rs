@@ -36,26 +36,20 @@ pub(crate) struct ExploreArgs {
     /// Skip synthesis; Yosys is then not needed
     #[arg(long, conflicts_with = "liberty")]
     pub(crate) no_area: bool,
-    #[command(flatten)]
-    pub(crate) process: ProcessArgs,
-    /// Measure the energy in the cells of --liberty, too, and the power at this frame rate. The
-    /// gates of each design are simulated on the clips, which takes half a minute for a design of 784 RPUs
-    #[arg(long, value_name = "RATE", value_parser = FramesPerSecond::parse, requires = "liberty", help_heading = "Silicon")]
-    pub(crate) energy: Option<FramesPerSecond>,
     /// Print the units of work as JSON lines, for machines that share the folder, and measure
     /// nothing. A line has the name of the unit, its inputs, and the file that exists when the unit
     /// is done
-    #[arg(long, conflicts_with_all = ["only", "list", "print", "json", "markdown"])]
+    #[arg(long, conflicts_with_all = ["only", "list", "print", "json", "markdown", "liberty"])]
     pub(crate) plan: bool,
     /// Do one unit of --plan, given by its name or its whole line; only the inputs of that unit are
     /// needed. Without --only, the command does the missing units and writes the tables
-    #[arg(long, value_name = "UNIT", conflicts_with_all = ["list", "print", "markdown"])]
+    #[arg(long, value_name = "UNIT", conflicts_with_all = ["list", "print", "markdown", "liberty"])]
     pub(crate) only: Option<String>,
     /// List the spaces that come with the program
-    #[arg(long, conflicts_with_all = ["space", "print"])]
+    #[arg(long, conflicts_with_all = ["space", "print", "liberty"])]
     pub(crate) list: bool,
     /// Print the file of a space that comes with the program
-    #[arg(long, requires = "space")]
+    #[arg(long, requires = "space", conflicts_with = "liberty")]
     pub(crate) print: bool,
     /// Print all points as JSON; with --only, print the unit
     #[arg(long, conflicts_with = "markdown")]
@@ -68,6 +62,12 @@ pub(crate) struct ExploreArgs {
     pub(crate) quiet: bool,
     #[command(flatten)]
     pub(crate) threads: ThreadArgs,
+    #[command(flatten)]
+    pub(crate) process: ProcessArgs,
+    /// Measure the energy in the cells of --liberty, too, and the power at this frame rate. The
+    /// gates of each design are simulated on the clips, which takes half a minute for a design of 784 RPUs
+    #[arg(long, value_name = "RATE", value_parser = FramesPerSecond::parse, requires = "liberty", help_heading = "Silicon")]
+    pub(crate) energy: Option<FramesPerSecond>,
     #[command(flatten)]
     pub(crate) input: InputArgs,
 }

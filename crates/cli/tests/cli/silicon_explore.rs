@@ -6,7 +6,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::common::silicon::{is_ready, number, write_clip};
+use crate::common::silicon::{LIBRARY, is_ready, number, write_clip};
 use crate::common::{expect_failure, run_in, run_successfully};
 
 /// A space of three organizations: RPUs and lanes have an energy, and a core of `raster` has none.
@@ -108,6 +108,7 @@ fn an_input_without_activity_is_refused_at_once() {
     let energy = ["-o", "out", "--energy", "30"];
     let short = [&INPUTS[..], &energy[..], &["--max-frames", "4", "--liberty"]].concat();
     expect_failure(dir.path(), 2, &short, &["the clip `clip` has 4 frames", "at least 5"]);
+    assert!(!dir.path().join("out").exists());
     let sets = ["explore", "space.toml", "clip/01.pgm", "clip/02.pgm", "--images=set"];
     let sets = [&sets[..], &energy[..], &["--liberty"]].concat();
     expect_failure(dir.path(), 2, &sets, &["no activity in time"]);
@@ -115,6 +116,59 @@ fn an_input_without_activity_is_refused_at_once() {
         let run = run_in(dir.path(), &[&INPUTS[..], args].concat());
         assert!(run.code == 2 && run.stderr.contains(option), "{}", run.stderr);
     }
+}
+
+/// A clip that ends early may be complete the next time, so nothing is kept of it.
+#[test]
+fn a_clip_that_ends_early_has_no_energy() {
+    if !is_ready() {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("space.toml"), SPACE.split_once("[vary]").unwrap().0).unwrap();
+    let clip = |frames: usize, last: usize| {
+        let frame = |number: usize| {
+            let pixels = (0..128).map(|pixel| u8::try_from(pixel * number % 251).unwrap());
+            [b"FRAME\n".to_vec(), pixels.collect()].concat()
+        };
+        let header = b"YUV4MPEG2 W16 H8 F25:1 Cmono\n".to_vec();
+        let mut bytes = [header, (0..frames).flat_map(frame).collect()].concat();
+        bytes.truncate(bytes.len() - last);
+        fs::write(dir.path().join("clip.y4m"), bytes).unwrap();
+    };
+    let args = ["explore", "space.toml", "clip.y4m", "--quiet", "--json", "-o", "out"];
+    let args = [&args[..], &["--energy", "30", "--liberty"]].concat();
+    clip(9, 20);
+    let cut = run_in(dir.path(), &args);
+    assert!(cut.code == 1 && cut.stderr.contains("no energy is given"), "{}", cut.stderr);
+    let found: Value = serde_json::from_str(&cut.stdout).unwrap();
+    assert!(found["rows"][0]["process"]["energy"].is_null(), "{found}");
+    assert_eq!(fs::read_dir(dir.path().join("out/measured")).unwrap().count(), 0);
+    clip(9, 0);
+    let whole = run_in(dir.path(), &args);
+    assert_eq!(whole.code, 0, "{}", whole.stderr);
+    // The second run has the figures of the first one, digit for digit.
+    let again = run_in(dir.path(), &args);
+    assert_eq!(whole.stdout, again.stdout);
+}
+
+/// The fronts and the texts name the same area, also if no point has one.
+#[test]
+fn a_front_without_areas_is_named_so() {
+    if !is_ready() {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    write_clip(dir.path(), 16);
+    fs::write(dir.path().join("space.toml"), SPACE).unwrap();
+    let args = ["explore", "space.toml", "clip", "-o", "out", "--memory-limit", "0", "--liberty"];
+    let text = run_successfully(dir.path(), &args);
+    assert!(text.contains("Pareto front of error and speed:"), "{text}");
+    assert!(column(dir.path(), "mm2").iter().all(String::is_empty));
+    assert_eq!(column(dir.path(), "front"), column(dir.path(), "front_speed"));
+    let page = fs::read_to_string(dir.path().join("out/report.html")).unwrap();
+    assert!(page.contains("as good in error and speed, and better"), "{page}");
+    assert!(!page.contains("Error against area"));
 }
 
 /// A fault of a library is found before hours of measurements.
@@ -132,5 +186,12 @@ fn a_library_without_flip_flops_is_refused_at_once() {
     fs::write(dir.path().join("bare.lib"), library).unwrap();
     let args = [&INPUTS[..], &["-o", "out", "--liberty", "bare.lib"][..]].concat();
     expect_failure(dir.path(), 2, &args, &["flip-flop", "bare"]);
+    // Energies need a voltage.
+    let cells = fs::read_to_string(LIBRARY).unwrap();
+    let without = cells.lines().filter(|line| !line.contains("voltage"));
+    fs::write(dir.path().join("cells.lib"), without.collect::<Vec<_>>().join("\n")).unwrap();
+    let energy = ["-o", "out", "--energy", "30", "--liberty", "cells.lib"];
+    let args = [&INPUTS[..], &energy].concat();
+    expect_failure(dir.path(), 2, &args, &["no nominal voltage"]);
     assert!(!dir.path().join("out").exists());
 }

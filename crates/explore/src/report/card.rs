@@ -119,14 +119,11 @@ fn process_text(process: &ProcessFigures) -> String {
         real_number(process.unit_um2, 0),
         process.clock_mhz
     );
-    match &process.energy {
-        Some(energy) => {
-            text += &format!(
-                "; {:.3} nJ per region and frame; {:.4} mW at {} frames/s, in the busiest stretch {:.4} mW",
-                energy.nj_per_region, energy.usual_mw, energy.frame_rate, energy.busiest_mw
-            );
-        }
-        None => text += "; energy not measured",
+    if let Some(energy) = &process.energy {
+        text += &format!(
+            "; {:.3} nJ per region and frame; {:.4} mW at a rate of {}/s, in the busiest stretch {:.4} mW",
+            energy.nj_per_region, energy.usual_mw, energy.frame_rate, energy.busiest_mw
+        );
     }
     text
 }

@@ -72,7 +72,7 @@ pub(crate) fn sample_exploration(space: &str, areas: bool) -> Exploration {
             front: FrontMembership::default(),
         });
     }
-    mark_fronts(&mut rows);
+    mark_fronts(&mut rows, false);
     Exploration {
         format_version: 1,
         program: "foveate 0.1.0".to_owned(),

@@ -10,9 +10,7 @@ use foveate_pictures::page::{
 };
 
 use super::colour::PointGrouping;
-use crate::objective::{
-    BetterDirection, Objective, area_objective, speed_objective, unbeaten_rows,
-};
+use crate::objective::{BetterDirection, FrontObjectives, Objective, unbeaten_rows};
 use crate::{DesignRow, Exploration};
 
 /// A plot of two objectives, with the front of both.
@@ -85,15 +83,14 @@ pub(crate) fn plots(
     titles: &[String],
 ) -> Vec<PagePlot> {
     use Objective::{Bytes, Energy, Error, Ssim, Stale};
+    let FrontObjectives { speed, area, has_areas } = exploration.front_objectives();
     let scatter = |id, title, x, y| {
         let [x, y] = [x, y].map(|objective| ObjectiveAxis::from_objective(objective, exploration));
         ScatterPlot { id, title, x, y }
     };
-    let mut scatters =
-        vec![scatter("speed", "Error against speed", speed_objective(rows.iter().copied()), Error)];
-    let area = area_objective(rows.iter().copied());
+    let mut scatters = vec![scatter("speed", "Error against speed", speed, Error)];
     let is_known = |objective: Objective| rows.iter().any(|row| objective.value_of(row).is_some());
-    if is_known(area) {
+    if has_areas {
         scatters.push(scatter("area", "Error against area", area, Error));
     }
     if is_known(Energy) {

@@ -8,7 +8,7 @@ use foveate_pictures::page::HeadingFigure;
 use foveate_pictures::page::number_text::{MISSING, counted, grouped, percent, real_number};
 
 use super::setting::PointSettings;
-use crate::objective::{Objective, area_objective, speed_objective};
+use crate::objective::{FrontObjectives, Objective};
 use crate::{DesignRow, Exploration};
 
 /// Returns the title of the page.
@@ -34,8 +34,6 @@ pub(crate) fn facts(exploration: &Exploration) -> Vec<HeadingFigure> {
     let Exploration { rows, refused, clips, axes, .. } = exploration;
     let frames = clips.iter().map(|clip| clip.frames).sum();
     let front = rows.iter().filter(|row| row.front.all).count();
-    let area = area_objective(rows);
-    let has_areas = rows.iter().any(|row| area.value_of(row).is_some());
     let (width, height) = exploration.size;
     let fact = |name, value, note| HeadingFigure { name, value, note };
     let count = |count: usize| grouped(count as u64);
@@ -48,11 +46,7 @@ pub(crate) fn facts(exploration: &Exploration) -> Vec<HeadingFigure> {
                 axes => format!("{} varied", counted(axes.len(), "setting")),
             },
         ),
-        fact(
-            "Pareto front",
-            count(front),
-            if has_areas { "of error, speed and area" } else { "of error and speed" }.to_owned(),
-        ),
+        fact("Pareto front", count(front), format!("of {}", exploration.front_figures())),
         fact("Refused", count(refused.len()), "combinations".to_owned()),
         fact("Frames", grouped(frames), counted(clips.len(), "clip")),
         fact("Frame", format!("{width}×{height}"), "pixels".to_owned()),
@@ -69,7 +63,7 @@ pub(crate) fn facts(exploration: &Exploration) -> Vec<HeadingFigure> {
 fn cells(exploration: &Exploration) -> Option<HeadingFigure> {
     let value = exploration.library.clone()?;
     let note = match exploration.energy_rate {
-        Some(rate) => format!("power at {rate} frames/s"),
+        Some(rate) => format!("power at a rate of {rate}/s"),
         None => "energy not measured".to_owned(),
     };
     Some(HeadingFigure { name: "Cells", value, note })
@@ -99,7 +93,9 @@ fn clock(exploration: &Exploration) -> HeadingFigure {
 }
 
 /// Describes the ends of the front.
-pub(crate) fn findings(rows: &[DesignRow], settings: &PointSettings) -> Vec<String> {
+pub(crate) fn findings(exploration: &Exploration, settings: &PointSettings) -> Vec<String> {
+    let rows = &exploration.rows;
+    let FrontObjectives { speed: fast, area: small, .. } = exploration.front_objectives();
     let front = || rows.iter().filter(|row| row.front.all);
     let by_error = |one: &&DesignRow, other: &&DesignRow| {
         one.figures.action_flips.total_cmp(&other.figures.action_flips)
@@ -110,7 +106,6 @@ pub(crate) fn findings(rows: &[DesignRow], settings: &PointSettings) -> Vec<Stri
     };
     let flips =
         |row: &DesignRow| format!("{} % flipped actions", percent(row.figures.action_flips));
-    let small = area_objective(rows);
     let mut found = Vec::new();
     let mut say = |what: &str, row: Option<&DesignRow>| {
         found.extend(row.map(|row| {
@@ -120,7 +115,6 @@ pub(crate) fn findings(rows: &[DesignRow], settings: &PointSettings) -> Vec<Stri
         }));
     };
     say("Smallest error", front().min_by(by_error));
-    let fast = speed_objective(rows);
     let fastest = front().max_by(|one, other| {
         let order = fast.value_of(one).partial_cmp(&fast.value_of(other));
         order.unwrap_or(Ordering::Equal).then_with(|| by_error(other, one))

@@ -42,13 +42,17 @@ const LINK: [(&str, &str, &str); 4] = [
 const SILICON: [(&str, &str, &str); 3] = [
     ("unit", "µm²", "area of one RPU, lane or core in the cells of the process"),
     ("array", "mm²", "area of the array in the cells of the process, with memory macros"),
-    ("clock", "MHz", "highest clock in the cells of the process"),
+    ("highest", "MHz", "highest clock in the cells of the process"),
 ];
 
 /// The name, unit and meaning of the figures of energy.
 const ENERGY: [(&str, &str, &str); 2] = [
     ("energy", "nJ", "energy of a region in a frame, in the usual stretches of the clips"),
-    ("power", "mW", "power of the array in the usual stretches of the clips"),
+    (
+        "power",
+        "mW",
+        "power of the array in the usual stretches of the clips, even if it cannot reach the frame rate",
+    ),
 ];
 
 /// The groups of columns that a table has only if they were measured.
@@ -79,10 +83,11 @@ pub(crate) fn columns(settings: &PointSettings, groups: MeasuredGroups) -> Vec<T
         title: title.to_owned(),
         numbers: true,
     };
-    let speed = [
-        ("clock", "MHz", "estimated from the netlist, 25 % either way, if the space gives none"),
-        ("frames", "/s", "frames per second at that clock"),
-    ];
+    let clock = match groups.silicon {
+        true => "that of the space, or the highest clock of the cells if it is lower",
+        false => "estimated from the netlist, 25 % either way, if the space gives none",
+    };
+    let speed = [("clock", "MHz", clock), ("frames", "/s", "frames per second at that clock")];
     let areas = if groups.area { &AREA[..] } else { &[] };
     let silicon = if groups.silicon { &SILICON[..] } else { &[] };
     let energy = if groups.energy { &ENERGY[..] } else { &[] };

@@ -178,7 +178,7 @@ fn hard() -> Vec<(&'static str, Exploration)> {
         ("no numbers", broken),
         ("nothing", none),
     ];
-    all.iter_mut().for_each(|(_, exploration)| mark_fronts(&mut exploration.rows));
+    all.iter_mut().for_each(|(_, exploration)| mark_fronts(&mut exploration.rows, false));
     all
 }
 

@@ -98,8 +98,9 @@ const NOTE: &str = "flips, SRS, TRS: regions whose decision differs from that of
      their squares. PSNR and SSIM of the screen against the ideal's, and against the input. stale: largest and mean \
      difference of the screen from the scene in relevant regions in grey levels, and frames in a \
      row that a region was stale. MHz: the clock, with its range if it is estimated. frames/s: at \
-     that clock. LUT/FF/mem: one RPU or lane. unit um2, mm2, nJ/region, mW: in the cells of the \
-     process; lower bounds.";
+     that clock. LUT/FF/mem: one RPU or lane.";
+const PROCESS_NOTE: &str = "unit um2, mm2, nJ/region, mW: in the cells of the process; they are lower bounds. MHz is \
+     not above the highest clock of the cells.";
 
 pub(super) fn markdown(found: &Exploration) -> String {
     let columns = measured_columns(found);
@@ -115,6 +116,9 @@ pub(super) fn markdown(found: &Exploration) -> String {
         );
     }
     let _ = writeln!(text, "\n{NOTE}");
+    if found.library.is_some() {
+        let _ = writeln!(text, "{PROCESS_NOTE}");
+    }
     text
 }
 
@@ -122,10 +126,10 @@ pub(super) fn markdown(found: &Exploration) -> String {
 pub(super) fn text(folder: &Path, found: &Exploration, width: usize) -> String {
     let front: Vec<&DesignRow> = found.rows.iter().filter(|row| row.front.all).collect();
     let mut text = format!(
-        "{} points, {} of them on the Pareto front of flips, speed and {}:\n",
+        "{} points, {} of them on the Pareto front of {}:\n",
         found.rows.len(),
         front.len(),
-        if found.library.is_some() { "area in mm2" } else { "(if synthesized) LUTs" }
+        found.front_figures()
     );
     for row in front {
         let _ = writeln!(text, "\n{}: {}", row.number, found.settings_text(row));
