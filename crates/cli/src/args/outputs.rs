@@ -89,8 +89,13 @@ pub(crate) enum EventFilter {
 
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
 pub(crate) enum PixelEventFormat {
+    /// Compressed arrays of NumPy, with the fields of tonic
     Npz,
     Csv,
+    /// EVT 2.0, for frames of at most 2048x2048 pixels
+    Evt2,
+    /// EVT 3.0, for frames of at most 2048x2048 pixels
+    Evt3,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
@@ -108,6 +113,8 @@ impl OutputArgs {
             pixel_events: PixelEventOptions {
                 npz: self.pixel_events.contains(&PixelEventFormat::Npz),
                 csv: self.pixel_events.contains(&PixelEventFormat::Csv),
+                evt2: self.pixel_events.contains(&PixelEventFormat::Evt2),
+                evt3: self.pixel_events.contains(&PixelEventFormat::Evt3),
                 contrast: self.contrast,
                 is_logarithmic: self.log,
             },

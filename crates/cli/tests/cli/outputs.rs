@@ -29,6 +29,7 @@ fn every_option_writes_its_files_and_no_others() {
         (&["--events", "parquet,csv", "--only", "active"], &["events.csv", "events.parquet"]),
         (&["--pixel-events"], &["pixel_events.npz"]),
         (&["--pixel-events=csv,npz", "--log"], &["pixel_events.csv", "pixel_events.npz"]),
+        (&["--pixel-events=evt2,evt3"], &["pixel_events_evt2.raw", "pixel_events_evt3.raw"]),
         (&["--pixel-events=csv", "--contrast", "2.5"], &["pixel_events.csv"]),
     ] {
         run_successfully(dir.path(), &[&simulate(options)[..], &["--force"]].concat());

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The events of a pixel camera as files: NPZ with the fields that tonic uses, and CSV.
+//! The events of a pixel camera as files: NPZ with the fields that tonic uses, CSV, EVT 2.0 and EVT 3.0.
 
 use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use foveate_camera::Camera;
+use foveate_eventfiles::{EvtEncoder, EvtVersion};
 
 use super::csv::CsvFile;
 use super::npz::NpzArchive;
@@ -23,9 +24,16 @@ pub(super) struct PixelEventFiles {
     camera: PixelCamera,
     npz: Option<EventArchive>,
     csv: Option<CsvFile>,
+    streams: Vec<EventStream>,
     events: u64,
     /// The events of one frame as bytes.
     bytes: Vec<u8>,
+}
+
+/// A file in EVT 2.0 or EVT 3.0.
+struct EventStream {
+    encoder: EvtEncoder,
+    file: GrowingFile,
 }
 
 /// The archive, and a second file with the number of events before each frame, which is moved into
@@ -48,13 +56,14 @@ impl PixelEventFiles {
             camera: PixelCamera::new(camera, options)?,
             npz: options.npz.then(|| EventArchive::create(folder)).transpose()?,
             csv: csv.transpose()?,
+            streams: EventStream::create_all(folder, camera, options)?,
             events: 0,
             bytes: Vec::new(),
         })
     }
 
     pub(super) fn push(&mut self, sink_frame: &SinkFrame<'_>) -> Result<(), SimulatorError> {
-        let Self { camera, npz, csv, events, bytes } = self;
+        let Self { camera, npz, csv, streams, events, bytes } = self;
         let time = sink_frame.source.time_us;
         let before = *events;
         bytes.clear();
@@ -68,6 +77,16 @@ impl PixelEventFiles {
                 bytes.extend(time.to_le_bytes());
                 bytes.push(polarity);
             }
+            for EventStream { encoder, file } in streams.iter_mut() {
+                let side = |side| u16::try_from(side).expect("a stream has frames that fit");
+                let event = foveate_eventfiles::PixelEvent {
+                    x: side(event.x),
+                    y: side(event.y),
+                    time_us: time,
+                    is_brighter: event.brighter,
+                };
+                encoder.push(event, file.pending_mut());
+            }
             if let Some(csv) = csv {
                 csv.line([event.x.into(), event.y.into(), time, polarity.into()]);
             }
@@ -80,6 +99,7 @@ impl PixelEventFiles {
 
     pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
         self.csv.as_mut().map_or(Ok(()), |csv| csv.write_out(all))?;
+        self.streams.iter_mut().try_for_each(|stream| stream.file.write_pending(all))?;
         self.npz.as_mut().map_or(Ok(()), |npz| {
             npz.starts.write_pending(all)?;
             npz.npz.write_out(all)
@@ -88,11 +108,36 @@ impl PixelEventFiles {
 
     /// Completes the files. Returns the number of events in them.
     pub(super) fn finish(mut self) -> Result<u64, SimulatorError> {
+        for EventStream { encoder, file } in &mut self.streams {
+            encoder.finish(file.pending_mut());
+        }
         self.write_out(true)?;
         if let Some(npz) = self.npz {
             npz.finish(self.events)?;
         }
         Ok(self.events)
+    }
+}
+
+impl EventStream {
+    /// Creates the files that are wanted, with their headers.
+    fn create_all(
+        folder: &Path,
+        camera: &Camera,
+        options: PixelEventOptions,
+    ) -> Result<Vec<Self>, SimulatorError> {
+        let size = (camera.width(), camera.height());
+        let wanted = [
+            (options.evt2, EvtVersion::Evt2, "pixel_events_evt2.raw"),
+            (options.evt3, EvtVersion::Evt3, "pixel_events_evt3.raw"),
+        ];
+        let create = |(_, version, name)| {
+            let (encoder, header) = EvtEncoder::new(version, size)?;
+            let mut file = GrowingFile::create(&folder.join(name))?;
+            file.append(header.as_bytes());
+            Ok(Self { encoder, file })
+        };
+        wanted.into_iter().filter(|(is_wanted, ..)| *is_wanted).map(create).collect()
     }
 }
 

@@ -194,6 +194,8 @@ fn every_scene_runs_and_runs_the_same_twice() {
             events: EventTableOptions { csv: true, parquet: true, only_active: false },
             pixel_events: PixelEventOptions {
                 npz: true,
+                evt2: true,
+                evt3: true,
                 csv: true,
                 ..PixelEventOptions::default()
             },
@@ -218,6 +220,8 @@ fn every_scene_runs_and_runs_the_same_twice() {
             "events.parquet",
             "pixel_events.npz",
             "pixel_events.csv",
+            "pixel_events_evt2.raw",
+            "pixel_events_evt3.raw",
         ] {
             let [first, second] =
                 outputs.each_ref().map(|output| fs::read(output.join(name)).unwrap());

@@ -10,6 +10,7 @@ use std::path::Path;
 use crate::support::{NpyArray, STREET, design, frames, names, street};
 use flate2::read::DeflateDecoder;
 use foveate_design::Decimal;
+use foveate_eventfiles::{EvtReader, EvtVersion};
 use foveate_footage::FrameRate;
 use foveate_frame::Frame;
 use foveate_simulator::{
@@ -171,10 +172,16 @@ fn a_step_brings_one_event_per_contrast_and_what_is_left_counts_on() {
 }
 
 #[test]
-fn both_files_hold_the_same_events_and_the_summary_counts_them() {
+fn all_files_hold_the_same_events_and_the_summary_counts_them() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
-    let options = PixelEventOptions { npz: true, csv: true, ..PixelEventOptions::default() };
+    let options = PixelEventOptions {
+        npz: true,
+        csv: true,
+        evt2: true,
+        evt3: true,
+        ..PixelEventOptions::default()
+    };
     let summary = simulate(&output, &STREET, options);
     assert!(names(&output).iter().all(|name| name == ".foveate" || !name.starts_with('.')));
     let files = unzip(&fs::read(output.join("pixel_events.npz")).unwrap());
@@ -201,6 +208,20 @@ fn both_files_hold_the_same_events_and_the_summary_counts_them() {
     let csv = fs::read_to_string(output.join("pixel_events.csv")).unwrap();
     let lines = events.iter().map(|(x, y, t, p)| format!("{x},{y},{t},{p}\n"));
     assert_eq!(csv, "x,y,t,p\n".to_owned() + &lines.collect::<String>());
+    for (file, version) in
+        [("pixel_events_evt2.raw", EvtVersion::Evt2), ("pixel_events_evt3.raw", EvtVersion::Evt3)]
+    {
+        let bytes = fs::read(output.join(file)).unwrap();
+        let reader = EvtReader::open(bytes.as_slice()).unwrap();
+        let design = design(&STREET);
+        assert_eq!(reader.version(), version);
+        assert_eq!(reader.size(), Some((design.width(), design.height())));
+        let read = reader.map(|event| {
+            let event = event.unwrap();
+            (event.x.into(), event.y.into(), event.time_us, u8::from(event.is_brighter))
+        });
+        assert!(read.eq(events.iter().copied()), "{file}");
+    }
     let pixel = summary.bandwidth.pixel.unwrap();
     assert_eq!(pixel.events, Some(events.len() as u64));
     assert_eq!(pixel.bytes, events.len() as u64 * PIXEL_EVENT_BYTES);
@@ -223,6 +244,24 @@ fn a_still_clip_gives_files_without_events() {
     assert!(events_of(&NpyArray::parse(&files[0].1)).is_empty());
     assert_eq!(NpyArray::parse(&files[1].1).data, [0; 24]);
     assert_eq!(fs::read_to_string(output.join("pixel_events.csv")).unwrap(), "x,y,t,p\n");
+}
+
+#[test]
+fn frames_that_a_format_cannot_hold_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let output = folder.path().join("out");
+    let design = ["frame.width=2056", "frame.height=8"];
+    for options in [
+        PixelEventOptions { evt2: true, ..PixelEventOptions::default() },
+        PixelEventOptions { evt3: true, ..PixelEventOptions::default() },
+    ] {
+        let options = RunOptions { pixel_events: options, rendered: None, ..RunOptions::default() };
+        let scene = Path::new("scene:street").to_owned();
+        let error = support::run(&[&scene], &design, &output, &options).unwrap_err().to_string();
+        for words in ["2048x2048", "2056x8", "--resize"] {
+            assert!(error.contains(words), "{error}");
+        }
+    }
 }
 
 #[test]

@@ -2,16 +2,12 @@
 //! The correlation of the model with a real event sensor: the rank correlation, over regions, of
 //! the model's counts with the numbers of events that the sensor sent at the same time.
 
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 use std::slice::from_ref;
 
-use csv::{ErrorKind, ReaderBuilder, StringRecord, Trim};
-use flate2::read::MultiGzDecoder;
 use foveate_design::Design;
-use serde::Deserialize;
 
+use super::sensor_events::{SensorEvent, read_sensor_events};
 use super::{Study, refuse_data_sets};
 use crate::StudyError;
 use crate::findings::StudyFindings;
@@ -84,14 +80,6 @@ pub(crate) fn run(
     Ok(findings)
 }
 
-/// An event of a recording, which may have other columns, too.
-#[derive(Deserialize)]
-struct SensorEvent {
-    t_us: u64,
-    x: u64,
-    y: u64,
-}
-
 /// The events of a recording that belong to a clip.
 struct SensorRecording {
     /// The number of events of every region, in row-major order.
@@ -133,20 +121,10 @@ fn read_recording(
     design: &Design,
     (first, last): (u64, u64),
 ) -> Result<SensorRecording, StudyError> {
-    let wrong = |problem: String| StudyError::SensorEvents { path: path.to_owned(), problem };
-    let file = File::open(path).map_err(|error| wrong(error.to_string()))?;
-    let packed = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gz"));
-    let reader: Box<dyn Read> =
-        if packed { Box::new(MultiGzDecoder::new(file)) } else { Box::new(file) };
-    let mut file =
-        foveate_reading::table_reader(ReaderBuilder::new().flexible(true).trim(Trim::All), reader);
-    let columns = file.headers().map_err(|error| wrong(csv_problem(&error)))?.clone();
     let per_region = vec![0; design.regions() as usize];
     let mut recorded = SensorRecording { per_region, times: None, has_events_of_clip: false };
-    let event = |record: StringRecord| record.deserialize(Some(&columns));
-    for record in file.records() {
-        let SensorEvent { t_us: t, x, y } =
-            record.and_then(event).map_err(|error| wrong(csv_problem(&error)))?;
+    let read = read_sensor_events(path, |event| {
+        let SensorEvent { t_us: t, x, y } = event;
         let (from, to) = recorded.times.unwrap_or((t, t));
         recorded.times = Some((from.min(t), to.max(t)));
         let meanwhile = t > first && t <= last;
@@ -156,16 +134,7 @@ fn read_recording(
             let region = y / size * u64::from(design.columns()) + x / size;
             recorded.per_region[usize::try_from(region).expect("it is in the frame")] += 1;
         }
-    }
-    Ok(recorded)
-}
-
-/// Returns the problem, with the number of its line.
-fn csv_problem(error: &csv::Error) -> String {
-    match (error.kind(), error.position()) {
-        (ErrorKind::Deserialize { err, .. }, Some(place)) => {
-            format!("line {}: {err}", place.line())
-        }
-        _ => error.to_string(),
-    }
+    });
+    let wrong = |problem| StudyError::SensorEvents { path: path.to_owned(), problem };
+    read.map(|()| recorded).map_err(wrong)
 }

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The errors of files of event cameras.
+
+use std::io;
+
+use thiserror::Error;
+
+use crate::EvtVersion;
+
+/// An error of a file of an event camera.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum EventFileError {
+    /// The frame is too large for the coordinates of the format.
+    #[error(
+        "{version} has coordinates of 11 bits, so it holds frames of at most 2048x2048 pixels; the frames have \
+         {width}x{height}"
+    )]
+    FrameTooLarge {
+        /// The version of the format.
+        version: EvtVersion,
+        /// The width of the frames in pixels.
+        width: u32,
+        /// The height of the frames in pixels.
+        height: u32,
+    },
+    /// The file cannot be read.
+    #[error(transparent)]
+    Io(#[from] io::Error),
+    /// The header is damaged, or names a format that is not known.
+    #[error("{problem}")]
+    Header {
+        /// The problem, as a sentence.
+        problem: String,
+    },
+    /// The stream is damaged.
+    #[error("at byte {at}: {problem}")]
+    Stream {
+        /// The place of the word in the file, in bytes from 0.
+        at: u64,
+        /// The problem, as a sentence.
+        problem: String,
+    },
+}

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Streams of events: what is written is read again, words are those of the format's definition, and damaged files
+//! end with an error.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+use foveate_eventfiles::{EventFileError, EvtEncoder, EvtReader, EvtVersion, PixelEvent};
+use proptest::prelude::*;
+
+const VERSIONS: [EvtVersion; 2] = [EvtVersion::Evt2, EvtVersion::Evt3];
+
+fn event(x: u16, y: u16, time_us: u64, is_brighter: bool) -> PixelEvent {
+    PixelEvent { x, y, time_us, is_brighter }
+}
+
+/// Returns the header and the words of a file.
+fn file(version: EvtVersion, size: (u32, u32), events: &[PixelEvent]) -> (String, Vec<u8>) {
+    let (mut encoder, header) = EvtEncoder::new(version, size).unwrap();
+    let mut words = Vec::new();
+    events.iter().for_each(|&event| encoder.push(event, &mut words));
+    encoder.finish(&mut words);
+    (header, words)
+}
+
+fn read(bytes: &[u8]) -> Result<Vec<PixelEvent>, EventFileError> {
+    EvtReader::open(bytes)?.collect()
+}
+
+fn round_trip(version: EvtVersion, size: (u32, u32), events: &[PixelEvent]) -> Vec<PixelEvent> {
+    let (header, words) = file(version, size, events);
+    read(&[header.as_bytes(), &words].concat()).unwrap()
+}
+
+/// Returns the words of EVT 3.0 of some events.
+fn words_3(events: &[PixelEvent]) -> Vec<u16> {
+    let words = file(EvtVersion::Evt3, (64, 64), events).1;
+    words.chunks(2).map(|word| u16::from_le_bytes([word[0], word[1]])).collect()
+}
+
+#[test]
+fn words_are_those_of_the_definition() {
+    let events = [event(3, 2, 65, false), event(7, 2, 65, true), event(2047, 2047, 130, true)];
+    let words = file(EvtVersion::Evt2, (2048, 2048), &events).1;
+    let words: Vec<u32> =
+        words.chunks(4).map(|word| u32::from_le_bytes(word.try_into().unwrap())).collect();
+    let place = |x: u32, y: u32| x << 11 | y;
+    assert_eq!(
+        words,
+        [
+            0x8000_0000,
+            0x8000_0001,
+            1 << 22 | place(3, 2),
+            0x1000_0000 | 1 << 22 | place(7, 2),
+            0x8000_0002,
+            0x1000_0000 | 2 << 22 | place(2047, 2047),
+        ]
+    );
+    // Row 2 has an event, then three for which a vector is shorter, and one in the vector behind it.
+    let row = [1, 20, 22, 31, 33].map(|x| event(x, 2, 4097, true));
+    let events = [&row[..], &[event(5, 2, 4097, false), event(5, 3, 4099, false)]].concat();
+    let expected = [
+        0x8000, 0x8001, 0x6001, 0x0002, // time 4097, row 2
+        0x2801, // x 1, brighter
+        0x3814, 0x4805, 0x4002, // vectors from x 20: 20, 22, 31, and 33
+        0x2005, // x 5, darker
+        0x6003, 0x0003, 0x2005, // time 4099, row 3, x 5
+    ];
+    assert_eq!(words_3(&events), expected);
+}
+
+#[test]
+fn a_long_recording_has_all_its_times() {
+    // Both formats begin a new loop: after 16.8 s, and after 4.8 hours.
+    let times =
+        [0, 1, 4095, 4096, 16_777_215, 16_777_216, 90_000_000, 17_179_869_183, 17_179_869_184];
+    let events: Vec<_> = times
+        .into_iter()
+        .chain([80_000_000_000])
+        .map(|time| event(1, 2, time, time % 2 == 0))
+        .collect();
+    for version in VERSIONS {
+        assert_eq!(round_trip(version, (4, 4), &events), events, "{version}");
+    }
+}
+
+#[test]
+fn a_time_does_not_go_back() {
+    for version in VERSIONS {
+        let events = [event(0, 0, 9000, true), event(1, 0, 10, true)];
+        let found = round_trip(version, (2, 2), &events);
+        assert_eq!(found.iter().map(|event| event.time_us).collect::<Vec<_>>(), [9000, 9000]);
+    }
+}
+
+#[test]
+fn frames_that_are_too_large_are_refused() {
+    for version in VERSIONS {
+        assert!(EvtEncoder::new(version, (2048, 2048)).is_ok());
+        for size in [(2049, 1), (1, 4096)] {
+            let error = EvtEncoder::new(version, size).unwrap_err().to_string();
+            let size = format!("{}x{}", size.0, size.1);
+            assert!(error.contains("2048x2048") && error.contains(&size), "{error}");
+        }
+    }
+}
+
+/// Words that other cameras send: vectors of 8 pixels, triggers, and events before the first time.
+#[test]
+fn words_of_cameras_are_read() {
+    let words: [u16; 12] = [
+        0x2001, // an event before the first row and time
+        0x8000, 0x6005, 0x2001, // an event before the first row
+        0x0009, 0xa001, 0x3003, 0x4801, 0x5081, 0x2802, 0xe123, 0x7001,
+    ];
+    let words = words.iter().flat_map(|word| word.to_le_bytes());
+    let bytes: Vec<u8> = b"% evt 3.0\n% end\n".iter().copied().chain(words).collect();
+    let found = read(&bytes).unwrap();
+    let expected = [(3, false), (14, false), (15, false), (22, false), (2, true)];
+    assert_eq!(found, expected.map(|(x, is_brighter)| event(x, 9, 5, is_brighter)));
+}
+
+#[test]
+fn damaged_streams_end_with_an_error() {
+    for version in VERSIONS {
+        let events = [event(1, 1, 5, true), event(3, 3, 6, false)];
+        let (header, words) = file(version, (4, 4), &events);
+        let cut = [header.as_bytes(), &words[..words.len() - 1]].concat();
+        let error = read(&cut).unwrap_err().to_string();
+        assert!(error.contains("ends within a word") && error.contains("at byte"), "{error}");
+        let smaller = header.replace("4x4", "3x3").replace("=4", "=3");
+        let outside = [smaller.as_bytes(), &words].concat();
+        let error = read(&outside).unwrap_err().to_string();
+        assert!(error.contains("pixel (3, 3)") && error.contains("3x3"), "{error}");
+        // After the error there are no more events.
+        let mut reader = EvtReader::open(outside.as_slice()).unwrap();
+        assert!(reader.next().unwrap().is_ok() && reader.next().unwrap().is_err());
+        assert!(reader.next().is_none());
+    }
+}
+
+proptest! {
+    /// Events of frames: several per pixel, rows in any order, long pauses.
+    #[test]
+    fn what_is_written_is_read(
+        events in prop::collection::vec(
+            (0_u16..40, 0_u16..4, prop_oneof![Just(0_u64), 1..5000_u64, 1..40_000_000_000_u64], any::<bool>(), 1_usize..20),
+            0..60,
+        )
+    ) {
+        let mut time = 0;
+        let mut all = Vec::new();
+        for (x, y, pause, is_brighter, run) in events {
+            time += pause;
+            // Neighbours in a row make vectors.
+            all.extend((0..run).map(|step| {
+                event(x + u16::try_from(step * step % 40).unwrap(), y, time, is_brighter)
+            }));
+        }
+        for version in VERSIONS {
+            prop_assert_eq!(&round_trip(version, (100, 4), &all), &all);
+        }
+    }
+
+    /// Any bytes behind a header are read without a panic.
+    #[test]
+    fn any_words_are_read(words in prop::collection::vec(any::<u8>(), 0..400), second in any::<bool>()) {
+        let header: &[u8] = if second { b"% evt 2.0\n% end\n" } else { b"% evt 3.0\n% end\n" };
+        let bytes = [header, &words].concat();
+        if let Ok(events) = read(&bytes) {
+            prop_assert!(events.iter().all(|event| event.x < 2048 && event.y < 2048));
+        }
+    }
+}
