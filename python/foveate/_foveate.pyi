@@ -189,6 +189,7 @@ def simulate(
     end: Optional[_Number] = None,
     crop: Optional[tuple[int, int, int, int]] = None,
     resize: Optional[tuple[int, int]] = None,
+    luma: Optional[Literal["coded", "full"]] = None,
     images: Optional[Literal["clip", "set", "cifar-sheet"]] = None,
     labels: Optional[_PathLike] = None,
 ) -> Run: ...
@@ -206,6 +207,7 @@ def clocks(
     end: Optional[_Number] = None,
     crop: Optional[tuple[int, int, int, int]] = None,
     resize: Optional[tuple[int, int]] = None,
+    luma: Optional[Literal["coded", "full"]] = None,
     images: Optional[Literal["clip", "set", "cifar-sheet"]] = None,
     labels: Optional[_PathLike] = None,
 ) -> NDArray[np.void]: ...

@@ -21,6 +21,7 @@ Inputs = Union[PathLike, Sequence[PathLike]]
 Number = Union[int, float, str]
 Crop = tuple[int, int, int, int]
 Images = Literal["clip", "set", "cifar-sheet"]
+Luma = Literal["coded", "full"]
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
@@ -52,6 +53,7 @@ def explain(
     end: Number | None = None,
     crop: Crop | None = None,
     resize: tuple[int, int] | None = None,
+    luma: Luma | None = None,
     images: Images | None = None,
     labels: PathLike | None = None,
 ) -> Explanation:
@@ -67,7 +69,7 @@ def explain(
         Number of the frame.
     region : (int, int), default (0, 0)
         Column and row of the region.
-    max_frames, input_fps, rate, start, end, crop, resize, images, labels : optional
+    max_frames, input_fps, rate, start, end, crop, resize, luma, images, labels : optional
         How inputs are read, see ``simulate``.
 
     Returns
@@ -82,7 +84,7 @@ def explain(
     """
     values, text = _foveate.explain(
         inputs, camera, frame=frame, region=region, max_frames=max_frames, input_fps=input_fps, rate=rate, start=start, end=end,
-        crop=crop, resize=resize, images=images, labels=labels,
+        crop=crop, resize=resize, luma=luma, images=images, labels=labels,
     )
     return Explanation(json.loads(values), text)
 
@@ -100,6 +102,7 @@ def fidelity(
     end: Number | None = None,
     crop: Crop | None = None,
     resize: tuple[int, int] | None = None,
+    luma: Luma | None = None,
     images: Images | None = None,
     labels: PathLike | None = None,
 ) -> Fidelity:
@@ -113,7 +116,7 @@ def fidelity(
         The design to measure.
     ideal : Camera, Design, preset, file or dict, optional
         The ideal design. The default is ``camera`` itself, so that only its rounding and its windows are measured.
-    max_frames, input_fps, rate, start, end, crop, resize, images, labels : optional
+    max_frames, input_fps, rate, start, end, crop, resize, luma, images, labels : optional
         How inputs are read, see ``simulate``.
 
     Returns
@@ -124,7 +127,7 @@ def fidelity(
     """
     values, problem = _foveate.fidelity(
         inputs, camera, ideal=ideal, max_frames=max_frames, input_fps=input_fps, rate=rate, start=start, end=end, crop=crop,
-        resize=resize, images=images, labels=labels,
+        resize=resize, luma=luma, images=images, labels=labels,
     )
     return Fidelity(json.loads(values), problem)
 
@@ -212,6 +215,7 @@ def infer(
     end: Number | None = None,
     crop: Crop | None = None,
     resize: tuple[int, int] | None = None,
+    luma: Luma | None = None,
     images: Images | None = None,
     labels: PathLike | None = None,
 ) -> Inference:
@@ -256,7 +260,7 @@ def infer(
         Write the outputs that are pictures as image files, too.
     force : bool, default False
         Replace ``output`` if it holds a result.
-    max_frames, input_fps, rate, start, end, crop, resize, images, labels : optional
+    max_frames, input_fps, rate, start, end, crop, resize, luma, images, labels : optional
         How inputs are read, see ``simulate``.
 
     Returns
@@ -276,7 +280,7 @@ def infer(
     options: dict[str, Any] = dict(
         mode=mode, tune=tune, reference=reference, accelerator=accelerator, mean=mean, scale=scale, framing=framing,
         whole_frames=whole_frames, noise=noise, every=every, detect=detect, boxes=boxes, pictures=pictures, force=force, max_frames=max_frames,
-        input_fps=input_fps, rate=rate, start=start, end=end, crop=crop, resize=resize, images=images, labels=labels,
+        input_fps=input_fps, rate=rate, start=start, end=end, crop=crop, resize=resize, luma=luma, images=images, labels=labels,
     )
     if output is not None:
         return Inference(Path(output), json.loads(_foveate.infer(network, inputs, camera, output, **options)))

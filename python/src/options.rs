@@ -1,14 +1,24 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Options by name: which of them a function has, and which one was probably meant by an unknown name.
 
-use foveate_footage::{CropRect, FrameRate, ImageRelation, InputOptions, parse_time};
+use foveate_footage::{CropRect, FrameRate, ImageRelation, InputOptions, LumaRange, parse_time};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 /// The options of all functions that read footage, by their names on the command line.
-const INPUT: [&str; 9] =
-    ["max_frames", "input_fps", "rate", "start", "end", "crop", "resize", "images", "labels"];
+const INPUT: [&str; 10] = [
+    "max_frames",
+    "input_fps",
+    "rate",
+    "start",
+    "end",
+    "crop",
+    "resize",
+    "luma",
+    "images",
+    "labels",
+];
 /// The similarity of two names, 0 to 1, from which on one is probably meant by the other.
 const ALIKE: f64 = 0.8;
 
@@ -85,6 +95,13 @@ fn set(found: &mut InputOptions, name: &str, value: &Bound<'_, PyAny>) -> PyResu
             found.resize = Some(size.ok_or_else(|| {
                 wrong(format!("expected (width, height), each 1 to {}", foveate_footage::MAX_SIDE))
             })?);
+        }
+        "luma" => {
+            found.luma = match text()?.as_str() {
+                "coded" => LumaRange::Coded,
+                "full" => LumaRange::Full,
+                _ => return Err(wrong("expected \"coded\" or \"full\"".into())),
+            };
         }
         "images" => {
             found.images = match text()?.as_str() {

@@ -282,6 +282,17 @@ def test_everything_shows_itself(frames):
     assert next(run)._repr_html_().count("data:image/png") == 3
 
 
+def test_the_range_of_luma_is_an_option(tmp_path):
+    pixels = np.where(np.indices((16, 16))[1] % 4 < 2, 16, 40).astype(np.uint8)
+    frame = b"FRAME\n" + pixels.tobytes()
+    (tmp_path / "a.y4m").write_bytes(b"YUV4MPEG2 W16 H16 F25:1 Cmono XCOLORRANGE=LIMITED\n" + 2 * frame)
+    # The gradients are 96 as the luma was coded, and 112 in the full range; the threshold is 100.
+    for luma, relevant in [(None, False), ("coded", False), ("full", True)]:
+        outcomes = list(fv.simulate(tmp_path / "a.y4m", "bare", luma=luma))
+        assert len(outcomes) == 2 and all(outcome.srs.all() == relevant for outcome in outcomes)
+        assert all(outcome.srs.any() == relevant for outcome in outcomes)
+
+
 def test_footage_that_cannot_be_read_is_refused_as_on_the_command_line(tmp_path):
     with pytest.raises(FileNotFoundError, match="input `nothing.mp4` does not exist; check the path"):
         fv.simulate("nothing.mp4")
@@ -298,6 +309,7 @@ def test_footage_that_cannot_be_read_is_refused_as_on_the_command_line(tmp_path)
         ({"crop": (4, 4)}, "crop"),
         ({"start": "soon"}, "start = soon"),
         ({"images": "many"}, "images = many"),
+        ({"luma": "wide"}, "luma = wide"),
     ]:
         with pytest.raises(ValueError, match=message):
             fv.simulate("scene:street", **options)

@@ -18,6 +18,8 @@ pub struct Exploration {
     pub clips: Vec<ClipRow>,
     /// The width and height of a frame in pixels.
     pub size: (u32, u32),
+    /// The range of the luma of clips that are video: `coded` or `full`.
+    pub luma: &'static str,
     /// The ideal camera that designs are compared with, as TOML.
     pub ideal: String,
     /// The clock of the frame rates in MHz, if the space gives one; otherwise each design has its own

@@ -106,7 +106,6 @@ fn open_feed(
     }
     // A depth out of range is refused here, so that the message names its key.
     let bits = config.validate()?.pixel_bits();
-    let (rate, interrupt) = (options.frame_rate, &options.interrupt);
     if let [input] = inputs {
         if let (Some(labels), true) = (&options.labels, is_non_file_source(input)) {
             return Err(labels_without_images(labels));
@@ -116,11 +115,11 @@ fn open_feed(
         }
         if let Some(device) = strip_prefix_of("v4l2:", input) {
             let camera = VideoMedium::Camera(device.into());
-            return Ok(Box::new(VideoFeed::open(camera, bits, rate, 0, interrupt)?));
+            return Ok(Box::new(VideoFeed::open(camera, bits, 0, options)?));
         }
         if let Some(address) = CameraAddress::from_input(input) {
             let camera = VideoMedium::Network(address);
-            return Ok(Box::new(VideoFeed::open(camera, bits, rate, 0, interrupt)?));
+            return Ok(Box::new(VideoFeed::open(camera, bits, 0, options)?));
         }
         if *input == Path::new("-") || is_pipe(input) {
             return Ok(Box::new(open_stream(input, bits, options)?));
@@ -156,13 +155,13 @@ fn open_feed(
 
 /// Opens a stream of raw frames that can be read once, from standard input or a pipe.
 fn open_stream(input: &Path, bits: u32, options: &InputOptions) -> Result<Y4mFeed, FootageError> {
-    let (rate, interrupt) = (options.frame_rate, &options.interrupt);
+    let interrupt = &options.interrupt;
     if is_camera_device(input) {
         return Err(FootageError::Device { path: input.to_owned() });
     }
     if input != Path::new("-") {
         let pipe = open_pipe(input, interrupt)?;
-        return Y4mFeed::new(input.display().to_string(), pipe, bits, rate, interrupt);
+        return Y4mFeed::new(input.display().to_string(), pipe, bits, options);
     }
     let name = "standard input".to_owned();
     let stdin = standard_input().map_err(|error| FootageError::Unreadable {
@@ -170,7 +169,7 @@ fn open_stream(input: &Path, bits: u32, options: &InputOptions) -> Result<Y4mFee
         problem: error.to_string(),
     })?;
     let stdin = Box::new(BufReader::new(InterruptibleReader::new(stdin, interrupt)));
-    Y4mFeed::new(name, stdin, bits, rate, interrupt)
+    Y4mFeed::new(name, stdin, bits, options)
 }
 
 fn labels_without_images(labels: &Path) -> FootageError {
@@ -212,15 +211,13 @@ fn open_file_feed(
         file_kind::FileKind::CifarBatch => Box::new(CifarBatch::open(path, bits)?),
         file_kind::FileKind::Y4m => {
             let name = path.display().to_string();
-            let (file, rate) = (open_unpacked(path)?, options.frame_rate);
-            Box::new(Y4mFeed::new(name, file, bits, rate, &options.interrupt)?)
+            Box::new(Y4mFeed::new(name, open_unpacked(path)?, bits, options)?)
         }
         file_kind::FileKind::Video => {
             let sought = options.selection.start_us.filter(|_| !options.numbered);
             let start = sought.unwrap_or(0);
             let medium = VideoMedium::File(path.to_owned());
-            let (rate, interrupt) = (options.frame_rate, &options.interrupt);
-            Box::new(VideoFeed::open(medium, bits, rate, start, interrupt)?)
+            Box::new(VideoFeed::open(medium, bits, start, options)?)
         }
     })
 }

@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use foveate_toolchain::Interrupt;
 
 use crate::FrameRate;
+use crate::LumaRange;
 use crate::limits::CropRect;
 use crate::source::selection::FrameSelection;
 
@@ -35,6 +36,8 @@ pub struct InputOptions {
     pub crop: Option<CropRect>,
     /// The width and height to scale to, after cropping.
     pub resize: Option<(u32, u32)>,
+    /// The range of the luma of video.
+    pub luma: LumaRange,
     /// The relation between image files.
     pub images: ImageRelation,
     /// The labels of an IDX file, if they are not beside it under their usual name.

@@ -4,6 +4,8 @@
 
 use foveate_frame::{ByteFrame, FrameError, convert_depth, luma};
 
+use crate::luma_range::expanded;
+
 /// The layout of the samples of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct SampleLayout {
@@ -15,12 +17,14 @@ pub(crate) struct SampleLayout {
     pub(crate) is_colour: bool,
     /// True if words have their high byte first.
     pub(crate) is_big_endian: bool,
+    /// True if luma has the narrow range, of 16 to 235 of 8 bits, and is expanded. Colours have all values.
+    pub(crate) is_expanded: bool,
 }
 
 impl SampleLayout {
     /// Makes the layout of one sample per pixel with the low byte first.
     pub(crate) fn luma(width: u32, height: u32, depth: u32) -> Self {
-        Self { width, height, depth, is_colour: false, is_big_endian: false }
+        Self { width, height, depth, is_colour: false, is_big_endian: false, is_expanded: false }
     }
 
     /// Returns the number of bytes of a frame.
@@ -32,8 +36,15 @@ impl SampleLayout {
     /// Makes the frame with `bits` bits per pixel. Samples above the largest value of their depth
     /// are limited to it.
     pub(crate) fn byte_frame(self, bytes: Vec<u8>, bits: u32) -> Result<ByteFrame, FrameError> {
-        let Self { width, height, depth, is_colour: colour, is_big_endian: big_endian } = self;
-        if depth == bits && depth == 8 && !colour {
+        let Self {
+            width,
+            height,
+            depth,
+            is_colour: colour,
+            is_big_endian: big_endian,
+            is_expanded,
+        } = self;
+        if depth == bits && depth == 8 && !colour && !is_expanded {
             return ByteFrame::from_bytes(width, height, bits, bytes);
         }
         let max = u16::MAX >> (16 - depth);
@@ -43,9 +54,17 @@ impl SampleLayout {
         };
         let words = bytes.chunks_exact(2).map(|b| word(b).min(max));
         let flat = bytes.iter().map(|&byte| u16::from(byte).min(max));
+        let pixel_of = |value: u16| {
+            let value = if is_expanded { expanded(value, depth) } else { value };
+            convert_depth(value, depth, bits)
+        };
         let pixels = match (colour, depth > 8) {
-            (false, false) => flat.map(|value| convert_depth(value, depth, bits)).collect(),
-            (false, true) => words.map(|value| convert_depth(value, depth, bits)).collect(),
+            (false, false) => {
+                let table: Vec<u16> =
+                    (0..=u8::MAX).map(|byte| pixel_of(max.min(byte.into()))).collect();
+                bytes.iter().map(|&byte| table[usize::from(byte)]).collect()
+            }
+            (false, true) => words.map(pixel_of).collect(),
             (true, false) => luma_of_colours(flat, depth, bits),
             (true, true) => luma_of_colours(words, depth, bits),
         };

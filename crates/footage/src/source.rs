@@ -10,7 +10,7 @@ pub(crate) mod set_form;
 
 use foveate_frame::ByteFrame;
 
-use crate::{FootageError, FrameRate};
+use crate::{FootageError, FrameRate, LumaRange};
 use set_form::SetForm;
 
 /// A frame with its name and time.
@@ -94,6 +94,11 @@ pub trait FrameSource: Send {
     /// Returns the kind of the files and of the labels of a set.
     fn form(&self) -> SetForm {
         SetForm::default()
+    }
+
+    /// Returns the range of luma, if the input is video.
+    fn luma(&self) -> Option<LumaRange> {
+        None
     }
 
     /// After the last frame, returns the problem because of which the source ended too early. The

@@ -2,8 +2,9 @@
 //! Video through an ffmpeg process, frame by frame through a pipe: memory does not grow with the
 //! length.
 //!
-//! * Luma is the Y plane as it was coded, without a change of range: 16..235 stays 16..235. A clip
-//!   gives the same values through `ffmpeg -f yuv4mpegpipe`. RGB video becomes luma as images do.
+//! * Luma is the Y plane as it was coded, without a change of range: 16..235 stays 16..235, unless
+//!   [`LumaRange::Full`] is wanted. A clip gives the same values through `ffmpeg -f yuv4mpegpipe`. RGB
+//!   video becomes luma as images do.
 //! * ffmpeg's `showinfo` filter writes size, format and time of a frame to the standard error
 //!   before the frame itself comes through the pipe. So times are those of the container, and a
 //!   change of size in the stream is detected. `-fps_mode passthrough` prevents ffmpeg from
@@ -30,8 +31,9 @@ use self::decoder::{DecodingParameters, StartPosition, VideoDecoder};
 use self::ffmpeg_log::AnnouncedFrame;
 use self::probe::VideoProperties;
 use crate::address::CameraAddress;
+use crate::samples::SampleLayout;
 use crate::source::feed::FrameFeed;
-use crate::{FootageError, FrameRate, SourceFrame};
+use crate::{FootageError, FrameRate, InputOptions, LumaRange, SourceFrame};
 
 /// The time in microseconds after which ffmpeg gives up on a silent network camera.
 const NETWORK_TIMEOUT_US: &str = "10000000";
@@ -111,6 +113,9 @@ pub(crate) struct VideoFeed {
     interrupt: Interrupt,
     bits: u32,
     rate: FrameRate,
+    luma: LumaRange,
+    /// True if the luma of the stream is expanded.
+    is_expanded: bool,
     /// The memory for the next frame.
     bytes: Vec<u8>,
     first_pts: Option<i64>,
@@ -123,10 +128,17 @@ impl VideoFeed {
     pub(crate) fn open(
         medium: VideoMedium,
         bits: u32,
-        rate: FrameRate,
         start_us: u64,
-        interrupt: &Interrupt,
+        options: &InputOptions,
     ) -> Result<Self, FootageError> {
+        let &InputOptions { frame_rate: rate, luma, ref interrupt, .. } = options;
+        if medium.is_camera() && luma == LumaRange::Full {
+            let problem = format!(
+                "the range of the camera `{}` is not known; leave the option out",
+                medium.name()
+            );
+            return Err(FootageError::Option { option: "--luma full", problem });
+        }
         let tools = Toolchain::system().with_cancel_flag(interrupt.flag());
         // Starting ffmpeg takes as long as decoding some dozen frames, so it runs in parallel with
         // ffprobe.
@@ -138,6 +150,7 @@ impl VideoFeed {
         let found = found.unwrap_or_else(|_| tools.find(Tool::Ffmpeg))?;
         let probe = probe?;
         let conversion = pixel_formats::conversion_filter(&probe.pixel_format);
+        let is_expanded = luma == LumaRange::Full && probe.has_narrow_range();
         let interrupt = interrupt.clone();
         let ffmpeg = DecodingParameters { found, medium: medium.clone(), conversion, interrupt };
         let sought = late_start::start(&tools, &ffmpeg, &probe, start_us)?;
@@ -153,6 +166,8 @@ impl VideoFeed {
             interrupt: ffmpeg.interrupt,
             bits,
             rate,
+            luma,
+            is_expanded,
             bytes: Vec::new(),
             first_pts,
             frames: 0,
@@ -163,7 +178,9 @@ impl VideoFeed {
     fn read_frame(&mut self, shown: &AnnouncedFrame) -> Result<ByteFrame, String> {
         let mut bytes = std::mem::take(&mut self.bytes);
         self.decoder.pixels(shown.layout, &mut bytes).map_err(|error| error.to_string())?;
-        shown.layout.byte_frame(bytes, self.bits).map_err(|error| error.to_string())
+        let is_expanded = self.is_expanded && !shown.layout.is_colour;
+        let layout = SampleLayout { is_expanded, ..shown.layout };
+        layout.byte_frame(bytes, self.bits).map_err(|error| error.to_string())
     }
 
     /// Returns the time since the first frame in microseconds, by the container, or by the rate if
@@ -233,6 +250,10 @@ impl FrameFeed for VideoFeed {
 
     fn stop(&mut self) {
         self.decoder.stop();
+    }
+
+    fn luma(&self) -> Option<LumaRange> {
+        Some(self.luma)
     }
 
     fn problem(&self) -> Option<String> {

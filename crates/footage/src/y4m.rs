@@ -13,7 +13,7 @@ use foveate_toolchain::Interrupt;
 use self::header::{Y4mHeader, read_line};
 use crate::samples::SampleLayout;
 use crate::source::feed::FrameFeed;
-use crate::{FootageError, FrameRate, SourceFrame};
+use crate::{FootageError, FrameRate, InputOptions, LumaRange, SourceFrame};
 
 /// The first bytes of a stream.
 pub(crate) const MAGIC: &[u8] = b"YUV4MPEG2";
@@ -24,6 +24,7 @@ pub(crate) struct Y4mFeed {
     input: Box<dyn BufRead + Send>,
     header: Y4mHeader,
     rate: FrameRate,
+    luma: LumaRange,
     bits: u32,
     /// The memory for the next frame.
     bytes: Vec<u8>,
@@ -33,14 +34,14 @@ pub(crate) struct Y4mFeed {
 }
 
 impl Y4mFeed {
-    /// Reads the header. `rate` is used for streams that state no rate.
+    /// Reads the header. The rate of the options is used for streams that state no rate.
     pub(crate) fn new(
         name: String,
         mut input: Box<dyn BufRead + Send>,
         bits: u32,
-        rate: FrameRate,
-        interrupt: &Interrupt,
+        options: &InputOptions,
     ) -> Result<Self, FootageError> {
+        let &InputOptions { frame_rate: rate, luma, ref interrupt, .. } = options;
         let header = read_line(&mut *input).and_then(|text| Y4mHeader::parse(&text));
         let header = header.map_err(|problem| match interrupt.is_set() {
             true => FootageError::Interrupted,
@@ -48,7 +49,18 @@ impl Y4mFeed {
         })?;
         let rate = header.rate.unwrap_or(rate);
         let (bytes, interrupt) = (Vec::new(), interrupt.clone());
-        Ok(Self { name, input, header, rate, bits, bytes, frames: 0, problem: None, interrupt })
+        Ok(Self {
+            name,
+            input,
+            header,
+            rate,
+            luma,
+            bits,
+            bytes,
+            frames: 0,
+            problem: None,
+            interrupt,
+        })
     }
 
     fn frame(&mut self) -> Result<Option<ByteFrame>, String> {
@@ -59,9 +71,10 @@ impl Y4mFeed {
         if start != "FRAME" && !start.starts_with("FRAME ") {
             return Err("a frame does not start with FRAME".to_owned());
         }
-        let Y4mHeader { width, height, depth, others, .. } = self.header;
+        let Y4mHeader { width, height, depth, others, is_narrow, .. } = self.header;
+        let is_expanded = self.luma == LumaRange::Full && is_narrow;
         let wide = depth > 8;
-        let layout = SampleLayout::luma(width, height, depth);
+        let layout = SampleLayout { is_expanded, ..SampleLayout::luma(width, height, depth) };
         let mut bytes = std::mem::take(&mut self.bytes);
         bytes.resize(layout.bytes(), 0);
         self.input.read_exact(&mut bytes).map_err(|error| stream_error(&error))?;
@@ -96,6 +109,10 @@ impl FrameFeed for Y4mFeed {
         }
     }
 
+    fn luma(&self) -> Option<LumaRange> {
+        Some(self.luma)
+    }
+
     fn total(&self) -> Option<u64> {
         None
     }
@@ -126,8 +143,7 @@ mod tests {
 
     fn read(bytes: &[u8], bits: u32) -> Result<(Vec<SourceFrame>, Option<String>), FootageError> {
         let input = Box::new(io::Cursor::new(bytes.to_vec()));
-        let mut stream =
-            Y4mFeed::new("-".to_owned(), input, bits, FrameRate::default(), &Interrupt::default())?;
+        let mut stream = Y4mFeed::new("-".to_owned(), input, bits, &InputOptions::default())?;
         let mut frames = Vec::new();
         while let Some(frame) = stream.next()? {
             frames.push(frame);

@@ -148,6 +148,7 @@ impl Inference {
             details: LayerFrameTable::new(staging)?,
         };
         let (all, inputs) = (clips.clips().len(), clips.inputs());
+        let luma = clips.options().luma;
         let with_truth = clips.boxes(0).is_some();
         let judge = options.with_whole_frames.then(|| {
             WholeFrameComparison::new(&vision_network, &design, &options.noise, with_truth)
@@ -208,6 +209,7 @@ impl Inference {
             problem,
             network: path.display().to_string(),
             inputs,
+            luma,
             mapping: vision_options.mapping,
             framing: vision_options.framing,
             every: options.frame_interval,

@@ -21,6 +21,7 @@ use crate::whole_computation::WholeComputation;
 use crate::whole_frames::{CountedDetections, WholeFrameComparison};
 use crate::{Computation, Framing, InferenceError, PixelMapping, TuningGoal};
 use foveate_design::Design;
+use foveate_footage::LumaRange;
 use foveate_network::Network;
 use std::num::NonZeroU32;
 use std::time::Instant;
@@ -35,6 +36,7 @@ pub(crate) struct RunMetadata {
     pub(crate) problem: Option<String>,
     pub(crate) network: String,
     pub(crate) inputs: Vec<String>,
+    pub(crate) luma: LumaRange,
     pub(crate) mapping: PixelMapping,
     pub(crate) framing: Framing,
     pub(crate) every: NonZeroU32,
@@ -251,6 +253,7 @@ impl<'a> InferenceRun<'a> {
             problem: told.problem,
             warnings,
             inputs: told.inputs,
+            luma: told.luma.name(),
             network: told.network,
             layout: self.network.layout().name(),
             mode: told.computation,

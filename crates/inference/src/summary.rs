@@ -30,6 +30,8 @@ pub struct InferenceSummary {
     pub warnings: Vec<String>,
     /// The inputs as the user named them.
     pub inputs: Vec<String>,
+    /// The range of the luma of clips that are video: `coded` or `full`.
+    pub luma: &'static str,
     /// The network's file.
     pub network: String,
     /// The layout in which the model takes its input: `nchw`, or `nhwc`, whose Transpose to

@@ -70,8 +70,9 @@ impl RunClips {
     pub fn from_player(player: ClipPlayer, boxes: &[PathBuf]) -> Result<Self, PlaybackError> {
         let inputs = player.inputs().iter().map(PathBuf::from).collect();
         let clips = vec![ComparedInput { name: player.inputs().join(", "), inputs }];
-        let (camera, options) = (CameraConfig::default(), InputOptions::default());
-        let opened = Mutex::new(Some(player));
+        let luma = player.luma().unwrap_or_default();
+        let options = InputOptions { luma, ..InputOptions::default() };
+        let (camera, opened) = (CameraConfig::default(), Mutex::new(Some(player)));
         Self { clips, camera, options, opened, boxes: Vec::new() }.with_boxes(boxes)
     }
 

@@ -4,7 +4,9 @@
 use std::path::Path;
 
 use foveate_camera::CameraConfig;
-use foveate_footage::{FootageError, FrameSource, InputOptions, SetForm, SourceKind, open};
+use foveate_footage::{
+    FootageError, FrameSource, InputOptions, LumaRange, SetForm, SourceKind, open,
+};
 use foveate_toolchain::Interrupt;
 
 use crate::reader::{FrameReader, ReaderMessage};
@@ -18,6 +20,7 @@ pub struct ClipPlayer {
     frames: Option<u64>,
     kind: SourceKind,
     form: SetForm,
+    luma: Option<LumaRange>,
     /// The interrupt that the source was opened with, if the player opened it.
     interrupt: Interrupt,
     limit: u64,
@@ -86,6 +89,12 @@ impl ClipPlayer {
         &self.form
     }
 
+    /// Returns the range of luma, if the input is video.
+    #[must_use]
+    pub fn luma(&self) -> Option<LumaRange> {
+        self.luma
+    }
+
     /// After the last frame, returns the problem because of which the clip ended too early. The
     /// frames before it are valid.
     #[must_use]
@@ -141,6 +150,7 @@ impl From<Box<dyn FrameSource>> for ClipPlayer {
             frames: source.frames(),
             kind: source.kind(),
             form: source.form(),
+            luma: source.luma(),
             interrupt: Interrupt::default(),
             limit: u64::MAX,
             state: PlayerState::Opened(source),

@@ -129,7 +129,7 @@ impl PacketRecording<'_> {
             (false, 1) => Some("1 loss in the stream, in losses.csv".to_owned()),
             (false, count) => Some(format!("{count} losses in the stream, in losses.csv")),
         };
-        let summary = recorder.finish(folder, &[self.name.to_owned()], problem)?;
+        let summary = recorder.finish(folder, (&[self.name.to_owned()], None), problem)?;
         let (losses, loss_count) = losses.finish()?;
         Ok(DecodedRecording { summary, losses, loss_count })
     }

@@ -98,7 +98,7 @@ impl Simulation {
             }
             (Err(error), _) => return Err(error),
         };
-        recorder.finish(folder, self.player.inputs(), problem)
+        recorder.finish(folder, (self.player.inputs(), self.player.luma()), problem)
     }
 
     /// Shows every frame to the engine.

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use foveate_footage::{
-    CropRect, FrameRate, FrameSelection, ImageRelation, InputOptions, MAX_SIDE, input_warnings,
-    parse_time,
+    CropRect, FrameRate, FrameSelection, ImageRelation, InputOptions, LumaRange, MAX_SIDE,
+    input_warnings, parse_time,
 };
 
 use super::at_least_one;
@@ -37,6 +37,10 @@ pub(crate) struct InputArgs {
     /// Scale every frame by area, after cropping
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub(crate) resize: Option<(u32, u32)>,
+    /// Range of the luma of video: as it was coded, where black is mostly 16 and white 235, or the full
+    /// range, to which players and OpenCV expand it
+    #[arg(long, value_enum, value_name = "RANGE", default_value = "coded")]
+    pub(crate) luma: LumaChoice,
     /// Meaning of image files: frames of a clip, a set of unrelated images (sub-folders are
     /// labels), or CIFAR sheets with one image per row [default: clip; for `dataset`: set]
     #[arg(long, value_enum, value_name = "WHAT")]
@@ -44,6 +48,12 @@ pub(crate) struct InputArgs {
     /// Labels of an IDX file, if they are not beside it
     #[arg(long, value_name = "FILE")]
     pub(crate) labels: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub(crate) enum LumaChoice {
+    Coded,
+    Full,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
@@ -74,6 +84,10 @@ impl InputArgs {
             },
             crop: self.crop,
             resize: self.resize,
+            luma: match self.luma {
+                LumaChoice::Coded => LumaRange::Coded,
+                LumaChoice::Full => LumaRange::Full,
+            },
             images: match self.images {
                 None => images,
                 Some(ImagesChoice::Clip) => ImageRelation::Clip,

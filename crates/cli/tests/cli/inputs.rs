@@ -46,6 +46,39 @@ fn a_stream_comes_through_standard_input() {
     assert_eq!(output.status.code(), Some(2));
 }
 
+/// Every summary of a video names the range of its luma, and the full range has other pixels.
+#[test]
+fn the_range_of_luma_is_chosen_and_named() {
+    let dir = tempfile::tempdir().unwrap();
+    // The gradients are 96 as the luma was coded, and 112 in the full range; the threshold is 100.
+    let pixels: Vec<u8> = (0..256).map(|pixel| if pixel % 4 < 2 { 16 } else { 40 }).collect();
+    let frame = [b"FRAME\n".to_vec(), pixels].concat();
+    let header = b"YUV4MPEG2 W16 H16 F25:1 Cmono XCOLORRANGE=LIMITED\n".to_vec();
+    fs::write(dir.path().join("a.y4m"), [header, frame.repeat(4)].concat()).unwrap();
+    let space = "preset = 'bare'\nmethod = 'grid'\n[vary]\n";
+    fs::write(dir.path().join("space.toml"), space).unwrap();
+    let mut active = Vec::new();
+    for (range, option) in
+        [("coded", &[][..]), ("full", &["--luma", "full"]), ("coded", &["--luma=coded"])]
+    {
+        let with = |args: &[&str]| run_successfully(dir.path(), &[args, option].concat());
+        with(&["simulate", "a.y4m", "--preset", "bare", "--quiet", "-o", "out", "--force"]);
+        let summary = json(&dir.path().join("out/summary.json"));
+        assert_eq!(summary["luma"], range);
+        active.push(summary["active_share"].clone());
+        let explore = ["explore", "space.toml", "a.y4m", "--no-area", "--quiet", "--json"];
+        let explored = with(&[&explore[..], &["-o", "space"]].concat());
+        let explored: Value = serde_json::from_str(&explored).unwrap();
+        assert_eq!(explored["luma"], range);
+        // Finished results of another range are not used.
+        assert_eq!(explored["rows"][0]["figures"]["active"], summary["active_share"]);
+    }
+    assert_eq!(active, [0.0, 0.25, 0.0]);
+    let scene = ["simulate", "scene:street", "--frames", "2", "--luma", "full", "-o", "scene"];
+    run_successfully(dir.path(), &[&scene[..], &["--quiet"]].concat());
+    assert!(json(&dir.path().join("scene/summary.json")).get("luma").is_none());
+}
+
 #[test]
 fn without_ffmpeg_video_ends_with_3_and_the_rest_works() {
     let dir = tempfile::tempdir().unwrap();

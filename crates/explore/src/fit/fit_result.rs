@@ -61,6 +61,8 @@ pub struct FitResult {
     pub format_version: u32,
     /// The numbers of frames of the first halves and of the second halves.
     pub frames: (u64, u64),
+    /// The range of the luma of clips that are video: `coded` or `full`.
+    pub luma: &'static str,
     /// The camera that designs are compared with, as TOML.
     pub task: String,
     /// The thresholds of the task, if a share of active regions was wanted.
@@ -123,6 +125,7 @@ impl FitFindings<'_> {
         FitResult {
             format_version: 4,
             frames: frames_of_halves(halves),
+            luma: request.input.luma.name(),
             task: DesignConfig { camera: search.task().clone(), ..DesignConfig::default() }
                 .to_toml(),
             target,

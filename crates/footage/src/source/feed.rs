@@ -8,7 +8,7 @@ use super::selection::{FrameSelection, FrameSelector, SelectionDecision};
 use super::set_form::SetForm;
 use super::{FrameOrigin, FrameSource, SourceFrame, SourceKind};
 use crate::limits::CropRect;
-use crate::{FootageError, InputOptions};
+use crate::{FootageError, InputOptions, LumaRange};
 
 /// A kind of input. It returns frames as they come, of any size.
 pub(crate) trait FrameFeed: Send {
@@ -26,6 +26,11 @@ pub(crate) trait FrameFeed: Send {
     /// Returns the kind of the files and of the labels of a set.
     fn form(&self) -> SetForm {
         SetForm::default()
+    }
+
+    /// Returns the range of luma, if the input is video.
+    fn luma(&self) -> Option<LumaRange> {
+        None
     }
 
     /// After the last frame, returns the problem because of which the input ended too early.
@@ -204,6 +209,10 @@ impl AdjustedSource {
 }
 
 impl FrameSource for AdjustedSource {
+    fn luma(&self) -> Option<LumaRange> {
+        self.feed.luma()
+    }
+
     fn size(&self) -> (u32, u32) {
         self.size
     }

@@ -125,7 +125,14 @@ fn parse_frame(line: &str) -> Option<LogEntry> {
     let SampleFormat { depth, colour, big_endian } = samples;
     Some(LogEntry::Frame(AnnouncedFrame {
         pts,
-        layout: SampleLayout { width, height, depth, is_colour: colour, is_big_endian: big_endian },
+        layout: SampleLayout {
+            width,
+            height,
+            depth,
+            is_colour: colour,
+            is_big_endian: big_endian,
+            is_expanded: false,
+        },
     }))
 }
 

@@ -24,6 +24,8 @@ pub(super) struct VideoProperties {
     pub(super) codec: String,
     /// The name of the pixel format. It is empty for a medium that was not probed.
     pub(super) pixel_format: String,
+    /// The name of the range of its values: `tv`, `pc`, or empty if the stream does not state it.
+    pub(super) colour_range: String,
 }
 
 #[derive(Deserialize)]
@@ -46,6 +48,8 @@ struct FfprobeStream {
     pix_fmt: String,
     #[serde(default)]
     codec_name: String,
+    #[serde(default)]
+    color_range: String,
     nb_frames: Option<String>,
 }
 
@@ -58,7 +62,10 @@ impl VideoProperties {
         let ffprobe = tools.find(Tool::Ffprobe)?.path;
         let ask = Invocation::new(&ffprobe)
             .args(["-v", "error", "-select_streams", "v:0"])
-            .args(["-show_entries", "stream=pix_fmt,codec_name,nb_frames:format=format_name"])
+            .args([
+                "-show_entries",
+                "stream=pix_fmt,codec_name,color_range,nb_frames:format=format_name",
+            ])
             .args(["-of", "json"])
             .args(medium.arguments())
             .timeout(LIMIT);
@@ -86,7 +93,20 @@ impl VideoProperties {
             container: answer.format.format_name,
             codec: stream.codec_name,
             pixel_format: stream.pix_fmt,
+            colour_range: stream.color_range,
         })
+    }
+
+    /// Returns true if black is 16 and white is 235, of 8 bits, in the luma of the stream. A stream that does not
+    /// state its range has the one that is usual for its format.
+    pub(super) fn has_narrow_range(&self) -> bool {
+        let starts =
+            |prefixes: &[&str]| prefixes.iter().any(|own| self.pixel_format.starts_with(own));
+        match self.colour_range.as_str() {
+            "tv" => true,
+            "pc" => false,
+            _ => !starts(&["yuvj", "gray", "ya", "mono"]),
+        }
     }
 }
 

@@ -19,6 +19,8 @@ pub(super) struct Y4mHeader {
     /// The number of samples of a frame that are not luma.
     pub(super) others: u64,
     pub(super) rate: Option<FrameRate>,
+    /// True if black is 16 and white is 235, of 8 bits.
+    pub(super) is_narrow: bool,
 }
 
 pub(super) fn read_line(input: &mut dyn BufRead) -> Result<String, String> {
@@ -37,6 +39,7 @@ impl Y4mHeader {
             return Err("it does not start with YUV4MPEG2".to_owned());
         }
         let (mut width, mut height, mut colour, mut rate) = (None, None, "420", None);
+        let mut range = None;
         for word in words.filter(|word| word.is_ascii()) {
             let (key, value) = word.split_at(word.len().min(1));
             match key {
@@ -44,6 +47,7 @@ impl Y4mHeader {
                 "H" => height = Some(parse_side(value)?),
                 "C" => colour = value,
                 "F" => rate = parse_rate(value),
+                "X" => range = value.strip_prefix("COLORRANGE=").or(range),
                 _ => {}
             }
         }
@@ -53,7 +57,13 @@ impl Y4mHeader {
         let unknown = || format!("its colour space `{colour}` is not supported");
         let (others, depth) =
             chroma_samples_and_depth(colour, width.into(), height.into()).ok_or_else(unknown)?;
-        Ok(Self { width, height, depth, others, rate })
+        // ffmpeg takes a stream without colours for one with all values.
+        let is_narrow = match range {
+            Some("LIMITED") => true,
+            Some("FULL") => false,
+            _ => !colour.starts_with("mono"),
+        };
+        Ok(Self { width, height, depth, others, rate, is_narrow })
     }
 }
 

@@ -6,6 +6,7 @@ mod clips;
 mod damaged_images;
 mod formats;
 mod fuzz;
+mod luma;
 mod memory;
 mod pictures;
 mod seek;

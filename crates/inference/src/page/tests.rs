@@ -151,6 +151,7 @@ fn sample(frames: u32) -> RunSample {
         problem: None,
         warnings: Vec::new(),
         inputs: vec!["scene:street".to_owned()],
+        luma: "coded",
         network: "networks/denoiser.onnx".to_owned(),
         layout: "nchw",
         mode: Computation::Tuned(TuningGoal::Psnr(40.0)),

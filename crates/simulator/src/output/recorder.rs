@@ -24,7 +24,7 @@ use super::summary::RunTotals;
 use super::summary::SentCounts;
 use super::{RunOptions, RunSummary, event_files};
 use crate::SimulatorError;
-use foveate_footage::{SetForm, SourceFrame};
+use foveate_footage::{LumaRange, SetForm, SourceFrame};
 use foveate_toolchain::Interrupt;
 
 /// The problem in the summary of a run that the user stopped.
@@ -201,7 +201,7 @@ impl RunRecorder {
     pub(crate) fn finish(
         mut self,
         folder: &Path,
-        inputs: &[String],
+        (inputs, luma): (&[String], Option<LumaRange>),
         mut problem: Option<String>,
     ) -> Result<RunSummary, SimulatorError> {
         let interrupted = problem.as_deref() == Some(INTERRUPTED);
@@ -236,6 +236,7 @@ impl RunRecorder {
             let mut summary = self.totals.summary(&self.design, inputs, problem, pixel_events);
             summary.data_set.clone_from(&self.data_set);
             summary.clocks = clocks;
+            summary.luma = luma.map(LumaRange::name);
             summary.write(&folder.join("summary.json")).map(|()| summary)
         };
         // The summary is written while there is space, before the last outputs are completed.

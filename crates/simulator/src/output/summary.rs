@@ -49,6 +49,9 @@ pub struct RunSummary {
     pub problem: Option<String>,
     /// The inputs as they were given.
     pub inputs: Vec<String>,
+    /// The range of the luma of video: `coded` or `full`. Other inputs have none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub luma: Option<&'static str>,
     /// The number of frames.
     pub frames: u64,
     /// The frame width in pixels.
@@ -176,6 +179,7 @@ impl RunTotals {
             complete: problem.is_none(),
             problem,
             inputs: inputs.to_vec(),
+            luma: None,
             frames: self.frames,
             width: design.width(),
             height: design.height(),
