@@ -167,7 +167,8 @@ def main():
     unused = []
     is_whole = list(organizations) == ORGANIZATIONS and (options.seed, options.count) == (1, 320)
     if is_whole and options.prove and not (options.sample or options.modules):
-        unused = [key for key in waivers if key not in used]
+        # Samples take other mutants of the generated modules.
+        unused = [key for key in waivers if key not in used and not key[0].startswith("rcm@")]
         for place, old_line, new_line in unused:
             print(f"{REASONS}: no survivor needs this; remove it: {place}\n    - {old_line}\n    + {new_line}")
     sys.exit(1 if open_count or unused else 0)
