@@ -284,8 +284,8 @@ def test_everything_shows_itself(frames):
 
 def test_the_range_of_luma_is_an_option(tmp_path):
     pixels = np.where(np.indices((16, 16))[1] % 4 < 2, 16, 40).astype(np.uint8)
-    frame = b"FRAME\n" + pixels.tobytes()
-    (tmp_path / "a.y4m").write_bytes(b"YUV4MPEG2 W16 H16 F25:1 Cmono XCOLORRANGE=LIMITED\n" + 2 * frame)
+    frame = b"FRAME\n" + pixels.tobytes() + bytes(128)
+    (tmp_path / "a.y4m").write_bytes(b"YUV4MPEG2 W16 H16 F25:1 C420 XCOLORRANGE=LIMITED\n" + 2 * frame)
     # The gradients are 96 as the luma was coded, and 112 in the full range; the threshold is 100.
     for luma, relevant in [(None, False), ("coded", False), ("full", True)]:
         outcomes = list(fv.simulate(tmp_path / "a.y4m", "bare", luma=luma))

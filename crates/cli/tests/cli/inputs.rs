@@ -52,8 +52,8 @@ fn the_range_of_luma_is_chosen_and_named() {
     let dir = tempfile::tempdir().unwrap();
     // The gradients are 96 as the luma was coded, and 112 in the full range; the threshold is 100.
     let pixels: Vec<u8> = (0..256).map(|pixel| if pixel % 4 < 2 { 16 } else { 40 }).collect();
-    let frame = [b"FRAME\n".to_vec(), pixels].concat();
-    let header = b"YUV4MPEG2 W16 H16 F25:1 Cmono XCOLORRANGE=LIMITED\n".to_vec();
+    let frame = [b"FRAME\n".to_vec(), pixels, vec![128; 128]].concat();
+    let header = b"YUV4MPEG2 W16 H16 F25:1 C420 XCOLORRANGE=LIMITED\n".to_vec();
     fs::write(dir.path().join("a.y4m"), [header, frame.repeat(4)].concat()).unwrap();
     let space = "preset = 'bare'\nmethod = 'grid'\n[vary]\n";
     fs::write(dir.path().join("space.toml"), space).unwrap();

@@ -97,16 +97,12 @@ impl VideoProperties {
         })
     }
 
-    /// Returns true if black is 16 and white is 235, of 8 bits, in the luma of the stream. A stream that does not
-    /// state its range has the one that is usual for its format.
+    /// Returns true if black is 16 and white is 235, of 8 bits, in the luma of the stream. Grey formats have all
+    /// values, whatever range is stated, as in ffmpeg. Other streams that state no range have the narrow one.
     pub(super) fn has_narrow_range(&self) -> bool {
         let starts =
             |prefixes: &[&str]| prefixes.iter().any(|own| self.pixel_format.starts_with(own));
-        match self.colour_range.as_str() {
-            "tv" => true,
-            "pc" => false,
-            _ => !starts(&["yuvj", "gray", "ya", "mono"]),
-        }
+        !starts(&["yuvj", "gray", "ya", "mono"]) && self.colour_range != "pc"
     }
 }
 

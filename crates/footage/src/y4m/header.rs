@@ -57,12 +57,8 @@ impl Y4mHeader {
         let unknown = || format!("its colour space `{colour}` is not supported");
         let (others, depth) =
             chroma_samples_and_depth(colour, width.into(), height.into()).ok_or_else(unknown)?;
-        // ffmpeg takes a stream without colours for one with all values.
-        let is_narrow = match range {
-            Some("LIMITED") => true,
-            Some("FULL") => false,
-            _ => !colour.starts_with("mono"),
-        };
+        // A stream without colours has all values, whatever range is stated, as in ffmpeg.
+        let is_narrow = !colour.starts_with("mono") && range != Some("FULL");
         Ok(Self { width, height, depth, others, rate, is_narrow })
     }
 }

@@ -92,6 +92,8 @@ fn video_with_all_values_is_not_changed() {
         ("grey.mkv", &["-c:v", "ffv1", "-pix_fmt", "gray"]),
         ("colours.mkv", &["-c:v", "ffv1", "-pix_fmt", "bgr0"]),
         ("grey.y4m", &["-pix_fmt", "gray"]),
+        ("tagged_grey.mkv", &["-color_range", "tv", "-c:v", "ffv1", "-pix_fmt", "gray"]),
+        ("tagged_grey.y4m", &["-color_range", "tv", "-pix_fmt", "gray"]),
         (
             "tagged.y4m",
             &["-vf", "scale=out_range=full", "-color_range", "pc", "-pix_fmt", "yuv420p"],
@@ -107,8 +109,8 @@ fn video_with_all_values_is_not_changed() {
 fn a_source_names_its_range() {
     let dir = tempfile::tempdir().unwrap();
     let path = dir.path().join("a.y4m");
-    let frame = [b"FRAME\n".as_slice(), &[16; 64]].concat();
-    fs::write(&path, [b"YUV4MPEG2 W8 H8 Cmono XCOLORRANGE=LIMITED\n".as_slice(), &frame].concat())
+    let frame = [b"FRAME\n".as_slice(), &[16; 96]].concat();
+    fs::write(&path, [b"YUV4MPEG2 W8 H8 C420 XCOLORRANGE=LIMITED\n".as_slice(), &frame].concat())
         .unwrap();
     for luma in [LumaRange::Coded, LumaRange::Full] {
         let options = InputOptions { luma, ..InputOptions::default() };
