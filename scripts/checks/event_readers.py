@@ -102,8 +102,19 @@ def made_recordings(folder):
 
 
 def given_recordings(paths):
-    """Returns the number of recordings that the library of the project reads otherwise than evlib."""
-    return sum(compare(f"{path}, evlib", read_evlib(path), read_own(path)) for path in paths)
+    """Returns the number of recordings that the library of the project refuses, or reads otherwise than evlib."""
+    wrong = 0
+    for path in paths:
+        try:
+            own = read_own(path)
+        except subprocess.CalledProcessError as error:
+            print(f"{path}: refused: {error.stderr.strip()}")
+            wrong += 1
+            continue
+        # A loop of EVT 2.0 is where evlib has no times any more.
+        length = int((own[:, 2] < LOOP_US).sum())
+        wrong += compare(f"{path}, evlib", read_evlib(path)[:length], own[:length])
+    return wrong
 
 
 def main():

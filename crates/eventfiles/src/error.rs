@@ -24,6 +24,28 @@ pub enum EventFileError {
         /// The height of the frames in pixels.
         height: u32,
     },
+    /// An event is outside of the sensor.
+    #[error(
+        "an event of pixel ({x}, {y}) is outside of the sensor, which has {width}x{height} pixels"
+    )]
+    EventOutside {
+        /// The column of the pixel.
+        x: u16,
+        /// The row of the pixel.
+        y: u16,
+        /// The width of the sensor in pixels.
+        width: u32,
+        /// The height of the sensor in pixels.
+        height: u32,
+    },
+    /// The pause between two events is too long.
+    #[error("there are more than 30 days between two events, at {from_us} and {to_us} us")]
+    PauseTooLong {
+        /// The time of the event before in microseconds.
+        from_us: u64,
+        /// The time of the event in microseconds.
+        to_us: u64,
+    },
     /// The file cannot be read.
     #[error(transparent)]
     Io(#[from] io::Error),

@@ -149,7 +149,8 @@ impl Evt3Decoder {
         let pixel = self.vector.trailing_zeros();
         self.vector &= self.vector - 1;
         let pixel = u16::try_from(pixel).expect("it is below 12");
-        self.event(self.vector_column + pixel, self.is_vector_brighter)
+        // A column beyond the row is refused by the reader.
+        self.event(self.vector_column.saturating_add(pixel), self.is_vector_brighter)
     }
 
     /// Takes a word. Returns the event of a single pixel; those of a vector follow from

@@ -47,10 +47,11 @@ impl EvtHeader {
             let (key, value) = line.split_once(' ').unwrap_or((&line, ""));
             match key {
                 "end" => break,
-                "evt" => version = Some(version_of_number(value)?),
+                "evt" => version = Some(same_version(version, version_of_number(value)?)?),
                 "format" => {
                     let found = Format::parse(value)?;
-                    (version, size) = (version.or(Some(found.version)), size.or(found.size));
+                    version = Some(same_version(version, found.version)?);
+                    size = size.or(found.size);
                 }
                 "geometry" => size = size_of(value.split('x')).or(size),
                 _ => {}
@@ -59,7 +60,12 @@ impl EvtHeader {
         let version = version.ok_or_else(|| EventFileError::Header {
             problem: "there is no header with a line `% evt 2.0` or `% evt 3.0`".to_owned(),
         })?;
-        Ok(Self { version, size, bytes })
+        match size {
+            Some((width, height)) if width.max(height) > EvtVersion::MAX_SIDE => {
+                Err(EventFileError::FrameTooLarge { version, width, height })
+            }
+            _ => Ok(Self { version, size, bytes }),
+        }
     }
 }
 
@@ -85,6 +91,20 @@ impl Format {
         }
         let size = field("width").zip(field("height")).map(|(width, height)| [width, height]);
         Ok(Self { version, size: size.and_then(|size| size_of(size.into_iter())) })
+    }
+}
+
+/// Refuses a header with two versions.
+fn same_version(
+    known: Option<EvtVersion>,
+    found: EvtVersion,
+) -> Result<EvtVersion, EventFileError> {
+    match known {
+        Some(known) if known != found => {
+            let problem = format!("the header names {known} and {found}; it may be damaged");
+            Err(EventFileError::Header { problem })
+        }
+        _ => Ok(found),
     }
 }
 
@@ -152,6 +172,8 @@ mod tests {
             ("% format EVT21;height=1;width=1\n% end\n", "`EVT21`"),
             ("% format EVT3;endianness=big\n% end\n", "`big`"),
             ("% evt 3.0", "no end"),
+            ("% evt 2.0\n% format EVT3;height=4;width=4\n% end\n", "EVT 2.0 and EVT 3.0"),
+            ("% evt 3.0\n% geometry 4096x4\n% end\n", "2048x2048"),
         ] {
             let error = read(text).unwrap_err();
             assert!(error.contains(problem), "{text}: {error}");

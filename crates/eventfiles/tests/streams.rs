@@ -16,7 +16,7 @@ fn event(x: u16, y: u16, time_us: u64, is_brighter: bool) -> PixelEvent {
 fn file(version: EvtVersion, size: (u32, u32), events: &[PixelEvent]) -> (String, Vec<u8>) {
     let (mut encoder, header) = EvtEncoder::new(version, size).unwrap();
     let mut words = Vec::new();
-    events.iter().for_each(|&event| encoder.push(event, &mut words));
+    events.iter().for_each(|&event| encoder.push(event, &mut words).unwrap());
     encoder.finish(&mut words);
     (header, words)
 }
@@ -116,6 +116,35 @@ fn words_of_cameras_are_read() {
     let found = read(&bytes).unwrap();
     let expected = [(3, false), (14, false), (15, false), (22, false), (2, true)];
     assert_eq!(found, expected.map(|(x, is_brighter)| event(x, 9, 5, is_brighter)));
+}
+
+/// A row of vectors without an end is no row.
+#[test]
+fn vectors_beyond_a_row_end_with_an_error() {
+    let start: [u16; 4] = [0x8000, 0x6001, 0x0000, 0x3000];
+    for empty in [170, 5461, 5462, 6000] {
+        let vectors = std::iter::repeat_n(0x4000, empty).chain([0x4ffe]);
+        let words = start.into_iter().chain(vectors).flat_map(u16::to_le_bytes);
+        let bytes: Vec<u8> = b"% evt 3.0\n% end\n".iter().copied().chain(words).collect();
+        let error = read(&bytes).unwrap_err().to_string();
+        assert!(error.contains("outside of the sensor"), "{empty}: {error}");
+    }
+}
+
+#[test]
+fn events_that_a_stream_cannot_hold_are_refused() {
+    for version in VERSIONS {
+        let (mut encoder, _) = EvtEncoder::new(version, (40, 30)).unwrap();
+        let mut bytes = Vec::new();
+        for (x, y) in [(40, 0), (0, 30), (u16::MAX, 0), (0, u16::MAX)] {
+            let error = encoder.push(event(x, y, 0, true), &mut bytes).unwrap_err().to_string();
+            assert!(error.contains(&format!("({x}, {y})")) && error.contains("40x30"), "{error}");
+        }
+        encoder.push(event(1, 1, 5, true), &mut bytes).unwrap();
+        let error = encoder.push(event(1, 1, u64::MAX, true), &mut bytes).unwrap_err().to_string();
+        assert!(error.contains("30 days"), "{error}");
+        assert!(bytes.len() < 100);
+    }
 }
 
 #[test]

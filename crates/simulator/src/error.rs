@@ -28,7 +28,7 @@ pub enum SimulatorError {
     #[error(transparent)]
     Timed(#[from] TimedError),
     /// The events of pixels cannot be written in a format.
-    #[error("{0}; write pixel events as npz or csv, or make the frames smaller with --resize")]
+    #[error("{0}; write pixel events as npz or csv, or give other --resize or --rate")]
     PixelEvents(#[from] EventFileError),
     /// A chart cannot be drawn.
     #[error(transparent)]

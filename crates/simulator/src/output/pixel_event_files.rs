@@ -65,7 +65,7 @@ impl PixelEventFiles {
     pub(super) fn push(&mut self, sink_frame: &SinkFrame<'_>) -> Result<(), SimulatorError> {
         let Self { camera, npz, csv, streams, events, bytes } = self;
         let time = sink_frame.source.time_us;
-        let before = *events;
+        let (before, mut written) = (*events, Ok(()));
         bytes.clear();
         camera.step(&sink_frame.source.frame.to_frame()?, |event| {
             *events += 1;
@@ -85,7 +85,9 @@ impl PixelEventFiles {
                     time_us: time,
                     is_brighter: event.brighter,
                 };
-                encoder.push(event, file.pending_mut());
+                if written.is_ok() {
+                    written = encoder.push(event, file.pending_mut());
+                }
             }
             if let Some(csv) = csv {
                 csv.line([event.x.into(), event.y.into(), time, polarity.into()]);
@@ -94,7 +96,7 @@ impl PixelEventFiles {
         if let Some(npz) = npz {
             npz.push(before, bytes);
         }
-        Ok(())
+        Ok(written?)
     }
 
     pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {

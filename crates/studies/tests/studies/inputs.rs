@@ -84,7 +84,7 @@ fn a_sensor_that_sees_the_same_correlates_fully() {
         let (mut encoder, header) = EvtEncoder::new(version, (24, 8)).unwrap();
         let mut bytes = header.into_bytes();
         for (x, y, time_us) in own {
-            encoder.push(PixelEvent { x, y, time_us, is_brighter: true }, &mut bytes);
+            encoder.push(PixelEvent { x, y, time_us, is_brighter: true }, &mut bytes).unwrap();
         }
         encoder.finish(&mut bytes);
         let raw = dir.path().join("events.raw");
