@@ -185,6 +185,8 @@ impl RunState {
 ///     Take this part of every frame: width, height, and its left and upper edge.
 /// resize : (int, int), optional
 ///     Scale every frame by area to this width and height, after cropping.
+/// luma : {"coded", "full"}, optional
+///     The range of the luma of video: as it was coded (default), or expanded to all values.
 /// images : {"clip", "set", "cifar-sheet"}, optional
 ///     How image files are read: as frames of a clip (default), as unrelated images, or as sheets with an image per row.
 /// labels : path, optional
@@ -209,7 +211,7 @@ impl RunState {
 #[pyo3(
     signature = (inputs, camera=None, **options),
     text_signature = "(inputs, camera=None, *, max_frames=None, input_fps=None, rate=None, start=None, end=None, crop=None, \
-                      resize=None, images=None, labels=None)"
+                      resize=None, luma=None, images=None, labels=None)"
 )]
 pub(crate) fn simulate(
     py: Python<'_>,
