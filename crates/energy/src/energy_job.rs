@@ -71,8 +71,8 @@ impl EnergyJob {
     /// what the model makes of it. Powers are for `frame_rate` frames per second.
     ///
     /// # Errors
-    /// Fails if the clip cannot be read, is not complete, is too short or does not fit, for organization `raster`, if there is
-    /// no room for the vectors, or if `cancel` was set.
+    /// Fails if the clip cannot be read, is not complete, is too short or does not fit, for organization
+    /// `raster`, if there is no room for the vectors, or if `cancel` was set.
     pub fn record(
         clip: &ActivityClip<'_>,
         design: &Design,

@@ -3,7 +3,7 @@
 //! its time, x and y with 11 bits each.
 
 use crate::PixelEvent;
-use crate::time_base::{ReadBase, WrittenBase};
+use crate::time_base::{TimeBaseDecoder, TimeBaseEncoder};
 
 /// An event of a pixel that became darker.
 const DARKER: u32 = 0x0;
@@ -20,12 +20,12 @@ const SIDE_BITS: u32 = 11;
 /// Makes words of events.
 #[derive(Clone, Debug)]
 pub(crate) struct Evt2Encoder {
-    base: WrittenBase,
+    base: TimeBaseEncoder,
 }
 
 impl Evt2Encoder {
     pub(crate) fn new() -> Self {
-        Self { base: WrittenBase::new(HIGH_BITS) }
+        Self { base: TimeBaseEncoder::new(HIGH_BITS) }
     }
 
     /// Appends the words of an event, which is not earlier than the last one.
@@ -45,12 +45,12 @@ impl Evt2Encoder {
 /// Makes events of words.
 #[derive(Clone, Debug)]
 pub(crate) struct Evt2Decoder {
-    base: ReadBase,
+    base: TimeBaseDecoder,
 }
 
 impl Evt2Decoder {
     pub(crate) fn new() -> Self {
-        Self { base: ReadBase::new(HIGH_BITS) }
+        Self { base: TimeBaseDecoder::new(HIGH_BITS) }
     }
 
     /// Takes a word. Returns its event; `None` for other words, and for events before the first time. Triggers and

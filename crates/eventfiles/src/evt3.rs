@@ -4,7 +4,7 @@
 //! or 8 pixels in a row.
 
 use crate::PixelEvent;
-use crate::time_base::{ReadBase, WrittenBase};
+use crate::time_base::{TimeBaseDecoder, TimeBaseEncoder};
 
 /// The row of the following events.
 const ROW: u16 = 0x0;
@@ -35,7 +35,7 @@ const MIN_VECTOR_EVENTS: usize = 3;
 /// Makes words of events. The last events of a row wait until it is known how many there are.
 #[derive(Clone, Debug)]
 pub(crate) struct Evt3Encoder {
-    base: WrittenBase,
+    base: TimeBaseEncoder,
     /// The low part of times that the last word stated.
     time_low: Option<u64>,
     row: Option<u16>,
@@ -45,7 +45,7 @@ pub(crate) struct Evt3Encoder {
 
 impl Evt3Encoder {
     pub(crate) fn new() -> Self {
-        let base = WrittenBase::new(CONTENT_BITS);
+        let base = TimeBaseEncoder::new(CONTENT_BITS);
         Self { base, time_low: None, row: None, waiting: Vec::new() }
     }
 
@@ -117,7 +117,7 @@ impl Evt3Encoder {
 /// Makes events of words.
 #[derive(Clone, Debug)]
 pub(crate) struct Evt3Decoder {
-    base: ReadBase,
+    base: TimeBaseDecoder,
     time_low: u16,
     row: Option<u16>,
     /// The column of the next vector.
@@ -131,7 +131,7 @@ pub(crate) struct Evt3Decoder {
 impl Evt3Decoder {
     pub(crate) fn new() -> Self {
         Self {
-            base: ReadBase::new(CONTENT_BITS),
+            base: TimeBaseDecoder::new(CONTENT_BITS),
             time_low: 0,
             row: None,
             vector_start: 0,

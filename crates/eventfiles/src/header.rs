@@ -49,7 +49,7 @@ impl EvtHeader {
                 "end" => break,
                 "evt" => version = Some(same_version(version, version_of_number(value)?)?),
                 "format" => {
-                    let found = Format::parse(value)?;
+                    let found = FormatLine::parse(value)?;
                     version = Some(same_version(version, found.version)?);
                     size = size.or(found.size);
                 }
@@ -70,12 +70,12 @@ impl EvtHeader {
 }
 
 /// The content of a line `% format`.
-struct Format {
+struct FormatLine {
     version: EvtVersion,
     size: Option<(u32, u32)>,
 }
 
-impl Format {
+impl FormatLine {
     fn parse(text: &str) -> Result<Self, EventFileError> {
         let mut parts = text.split(';').map(str::trim);
         let version = match parts.next() {

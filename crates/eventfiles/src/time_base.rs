@@ -3,14 +3,14 @@
 
 /// The writer's side: the high part of the last word that stated it.
 #[derive(Clone, Debug)]
-pub(crate) struct WrittenBase {
+pub(crate) struct TimeBaseEncoder {
     /// The high part, with all loops; `None` before the first word.
     high: Option<u64>,
     /// The number of values of a loop.
     values: u64,
 }
 
-impl WrittenBase {
+impl TimeBaseEncoder {
     pub(crate) fn new(bits: u32) -> Self {
         Self { high: None, values: 1 << bits }
     }
@@ -50,12 +50,12 @@ impl WrittenBase {
 
 /// The reader's side: the high part of the last word that stated it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct ReadBase {
+pub(crate) struct TimeBaseDecoder {
     high: Option<u64>,
     values: u64,
 }
 
-impl ReadBase {
+impl TimeBaseDecoder {
     pub(crate) fn new(bits: u32) -> Self {
         Self { high: None, values: 1 << bits }
     }
@@ -79,7 +79,7 @@ mod tests {
     use super::*;
 
     fn words(bits: u32, steps: bool, highs: &[u64]) -> Vec<u64> {
-        let (mut base, mut words) = (WrittenBase::new(bits), Vec::new());
+        let (mut base, mut words) = (TimeBaseEncoder::new(bits), Vec::new());
         highs.iter().for_each(|&high| base.advance(high, steps, |word| words.push(word)));
         words
     }
@@ -97,9 +97,9 @@ mod tests {
     fn a_reader_finds_the_high_parts() {
         for steps in [false, true] {
             let highs = [0, 3, 3, 7, 8, 30, 31, 100];
-            let mut read = ReadBase::new(3);
+            let mut read = TimeBaseDecoder::new(3);
             let mut found = Vec::new();
-            let mut base = WrittenBase::new(3);
+            let mut base = TimeBaseEncoder::new(3);
             for high in highs {
                 base.advance(high, steps, |word| read.take(word));
                 found.push(read.high().unwrap());

@@ -122,8 +122,9 @@ impl DesignRow {
         self.silicon.as_ref().map(|silicon| count_to_f64(silicon.array.lut_total_packed))
     }
 
-    /// Returns the measured energy.
-    pub(crate) fn energy(&self) -> Option<&ProcessEnergy> {
+    /// Returns the measured energy in the process, if there is one.
+    #[must_use]
+    pub fn energy(&self) -> Option<&ProcessEnergy> {
         self.process.as_ref().and_then(|process| process.energy.as_ref())
     }
 }

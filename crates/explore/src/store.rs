@@ -29,7 +29,7 @@ const LOAD_VERSION: u32 = 1;
 /// The version of the energies in the cells of a process, which grows in the same way.
 const ENERGY_VERSION: u32 = 1;
 /// The number of hexadecimal digits of a name: 96 bits.
-pub(crate) const KEY_DIGITS: usize = 24;
+const KEY_DIGITS: usize = 24;
 const STORE_FOLDER: &str = "measured";
 /// The largest measurement that is read, in bytes; a usual one has a few KiB.
 const MAX_MEASUREMENT_BYTES: u64 = 1 << 26;
@@ -82,6 +82,11 @@ impl MeasurementStore {
     }
 }
 
+/// Returns the name of a result that depends on all of a text: the first digits of its hash.
+pub(crate) fn key_of(text: &str) -> String {
+    sha256_hex(text)[..KEY_DIGITS].to_owned()
+}
+
 /// The store of the measured energies of designs.
 pub(crate) struct EnergyStore<'a> {
     pub(crate) measurements: &'a MeasurementStore,
@@ -105,21 +110,21 @@ impl EnergyStore<'_> {
         let text = format!(
             "energy {ENERGY_VERSION} {ENERGY_FORMAT_VERSION}\n{clip}\n{frame_rate}\n{design}\n{report}"
         );
-        sha256_hex(text)[..KEY_DIGITS].to_owned()
+        key_of(&text)
     }
 }
 
 /// Returns the name of a measurement; `ideal` is the TOML of the ideal camera.
 pub(crate) fn measurement_key(clip: &str, ideal: &str, camera: &CameraConfig) -> String {
     let text = format!("{FIGURES_VERSION}\n{clip}\n{ideal}\n{}", camera.to_toml());
-    sha256_hex(text)[..KEY_DIGITS].to_owned()
+    key_of(&text)
 }
 
 /// Returns the name of the load of a design on a link; `ideal` is the TOML of the ideal camera, by
 /// which the frames are read.
 pub(crate) fn load_key(clip: &str, ideal: &str, link: ArrayLink, design: &DesignConfig) -> String {
     let text = format!("load {LOAD_VERSION}\n{clip}\n{ideal}\n{link:?}\n{}", design.to_toml());
-    sha256_hex(text)[..KEY_DIGITS].to_owned()
+    key_of(&text)
 }
 
 /// Returns a text that identifies a clip as it is read: its options, and the names, sizes and times

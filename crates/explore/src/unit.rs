@@ -14,14 +14,13 @@ use foveate_design::Design;
 use foveate_footage::input_without_secrets;
 use foveate_playback::RunHooks;
 use foveate_staging::write_file;
-use foveate_toolchain::sha256_hex;
 use serde::{Deserialize, Serialize};
 
 use crate::exploration_work::ExplorationWork;
 use crate::folder::{UNITS_FOLDER, check_folder, claim_folder};
 use crate::footage::{CAMERAS_PER_UNIT, MeasurementCount};
 use crate::link_load::LoadMeasurement;
-use crate::store::{KEY_DIGITS, MeasurementStore};
+use crate::store::{MeasurementStore, key_of};
 use crate::{DesignSpace, ExploreError, ExploreRequest};
 
 /// A unit of work.
@@ -141,7 +140,7 @@ fn planned_units(
                 designs.retain(|design| design.has_forwarding());
                 keys.extend(loads.keys(clip, &designs));
             }
-            let unit = sha256_hex(keys.join("\n"))[..KEY_DIGITS].to_owned();
+            let unit = key_of(&keys.join("\n"));
             let file = output.join(UNITS_FOLDER).join(format!("{unit}.json"));
             let unit = WorkUnit {
                 name: unit,

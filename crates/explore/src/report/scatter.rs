@@ -89,11 +89,10 @@ pub(crate) fn plots(
         ScatterPlot { id, title, x, y }
     };
     let mut scatters = vec![scatter("speed", "Error against speed", speed, Error)];
-    let is_known = |objective: Objective| rows.iter().any(|row| objective.value_of(row).is_some());
     if has_areas {
         scatters.push(scatter("area", "Error against area", area, Error));
     }
-    if is_known(Energy) {
+    if rows.iter().any(|row| row.energy().is_some()) {
         scatters.push(scatter("energy", "Error against energy", Energy, Error));
     }
     scatters.push(scatter("stale", "Staleness against bytes", Bytes, Stale));

@@ -6,12 +6,12 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use foveate_camera::Camera;
-use foveate_eventfiles::{EvtEncoder, EvtVersion};
+use foveate_eventfiles::{EventFileError, EvtEncoder, EvtVersion};
 
 use super::csv::CsvFile;
 use super::npz::NpzArchive;
 use super::sink::SinkFrame;
-use super::{PixelCamera, PixelEventOptions, cannot_write};
+use super::{PixelCamera, PixelEvent, PixelEventOptions, cannot_write};
 use crate::SimulatorError;
 use foveate_staging::GrowingFile;
 
@@ -77,16 +77,9 @@ impl PixelEventFiles {
                 bytes.extend(time.to_le_bytes());
                 bytes.push(polarity);
             }
-            for EventStream { encoder, file } in streams.iter_mut() {
-                let side = |side| u16::try_from(side).expect("a stream has frames that fit");
-                let event = foveate_eventfiles::PixelEvent {
-                    x: side(event.x),
-                    y: side(event.y),
-                    time_us: time,
-                    is_brighter: event.brighter,
-                };
+            for stream in streams.iter_mut() {
                 if written.is_ok() {
-                    written = encoder.push(event, file.pending_mut());
+                    written = stream.push(event, time);
                 }
             }
             if let Some(csv) = csv {
@@ -140,6 +133,17 @@ impl EventStream {
             Ok(Self { encoder, file })
         };
         wanted.into_iter().filter(|(is_wanted, ..)| *is_wanted).map(create).collect()
+    }
+
+    fn push(&mut self, event: PixelEvent, time_us: u64) -> Result<(), EventFileError> {
+        let side = |side| u16::try_from(side).expect("a stream has frames that fit");
+        let event = foveate_eventfiles::PixelEvent {
+            x: side(event.x),
+            y: side(event.y),
+            time_us,
+            is_brighter: event.brighter,
+        };
+        self.encoder.push(event, self.file.pending_mut())
     }
 }
 

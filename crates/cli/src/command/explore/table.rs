@@ -82,8 +82,7 @@ fn array_cell(row: &DesignRow) -> String {
 }
 
 fn energy_cell(row: &DesignRow, take: fn(&ProcessEnergy) -> f64) -> String {
-    let energy = row.process.as_ref().and_then(|process| process.energy.as_ref());
-    energy.map_or_else(String::new, |energy| format!("{:.4}", take(energy)))
+    row.energy().map_or_else(String::new, |energy| format!("{:.4}", take(energy)))
 }
 
 /// Returns the columns that have a figure for a point.
