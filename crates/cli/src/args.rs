@@ -28,6 +28,7 @@ mod view;
 mod vision;
 
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 
 use clap::builder::RangedI64ValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
@@ -98,7 +99,7 @@ pub(crate) enum Command {
 /// The options that choose the design.
 #[derive(Args, Debug)]
 pub(crate) struct DesignArgs {
-    /// Configuration file (TOML)
+    /// Configuration file (TOML), or - for standard input
     #[arg(long, short, value_name = "FILE")]
     pub(crate) config: Option<PathBuf>,
     /// Design to start from; see `foveate presets`
@@ -143,8 +144,9 @@ impl DesignArgs {
 
     fn text(&self) -> Result<String, CliError> {
         Ok(match (&self.config, &self.preset) {
-            (Some(file), _) => foveate_reading::read_settings(file)
-                .map_err(CliError::io("read the configuration", file))?,
+            (Some(file), _) => {
+                settings(file).map_err(CliError::io("read the configuration", file))?
+            }
             (None, Some(name)) => Preset::find(name)?.toml.to_owned(),
             (None, None) => String::new(),
         })
@@ -156,6 +158,19 @@ impl DesignArgs {
         let alone = DesignConfig::from_toml(text).and_then(|config| config.validate());
         CliError::Config { file: self.config.clone().filter(|_| alone.is_err()), error }
     }
+}
+
+/// Returns the text of a configuration file. Standard input is read once, and its text is kept.
+fn settings(file: &Path) -> std::io::Result<String> {
+    static STANDARD_INPUT: OnceLock<String> = OnceLock::new();
+    if file != Path::new("-") {
+        return foveate_reading::read_settings(file);
+    }
+    if let Some(text) = STANDARD_INPUT.get() {
+        return Ok(text.clone());
+    }
+    let text = foveate_reading::settings_from(std::io::stdin().lock())?;
+    Ok(STANDARD_INPUT.get_or_init(|| text).clone())
 }
 
 /// Write the Verilog of a design, with file lists, constraints, benches and a README

@@ -12,7 +12,7 @@ use foveate_camera::CameraConfig;
 use foveate_design::{Design, DesignConfig};
 use foveate_energy::ENERGY_FORMAT_VERSION;
 use foveate_estimate::SiliconReport;
-use foveate_footage::{ComparedInput, InputOptions};
+use foveate_footage::{ComparedInput, InputOptions, matched_images};
 use foveate_link::ArrayLink;
 use foveate_staging::write_file;
 use foveate_toolchain::sha256_hex;
@@ -135,12 +135,13 @@ pub(crate) fn clip_identity(subject: &ComparedInput, input: &InputOptions) -> St
         let _ = write!(text, "\n{}", path.display());
         // An input that does not exist under its name may be a pattern, or a scene, which has no
         // files.
-        let pattern = path.to_str().filter(|_| !path.exists()).map(glob::glob);
-        match pattern {
-            Some(Ok(files)) => files.flatten().for_each(|file| stamp_files(&mut text, &file)),
-            _ => stamp_files(&mut text, path),
+        match path.exists() {
+            true => stamp_files(&mut text, path),
+            false => matched_images(path).iter().for_each(|file| stamp_file(&mut text, file)),
         }
     }
+    let further = [input.labels.as_deref(), input.timestamps.as_ref().map(|file| &*file.path)];
+    further.into_iter().flatten().for_each(|file| stamp_file(&mut text, file));
     text
 }
 
@@ -160,6 +161,8 @@ fn stamp_file(text: &mut String, file: &Path) {
 
 #[cfg(test)]
 mod tests {
+    use foveate_footage::{TimestampUnit, TimestampsFile};
+
     use super::*;
 
     #[test]
@@ -172,6 +175,10 @@ mod tests {
             let subject = ComparedInput { name: String::new(), inputs: vec![input] };
             clip_identity(&subject, &InputOptions::default())
         };
+        let numbered = || of(folder.path().join("f%d.png"));
+        let without = numbered();
+        fs::write(folder.path().join("f1.png"), "a").unwrap();
+        assert_ne!(numbered(), without);
         let both = || (of(folder.path().to_owned()), of(below.join("*.png")));
         let before = both();
         assert_eq!(before, both());
@@ -181,5 +188,18 @@ mod tests {
         fs::write(below.join("b.png"), "b").unwrap();
         let more = both();
         assert!(more.0 != changed.0 && more.1 != changed.1);
+    }
+
+    #[test]
+    fn a_clip_is_another_when_its_times_are() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("times.txt");
+        let subject = ComparedInput { name: String::new(), inputs: vec!["f.png".into()] };
+        let file = TimestampsFile { path: path.clone(), unit: TimestampUnit::Seconds };
+        let options = InputOptions { timestamps: Some(file), ..InputOptions::default() };
+        fs::write(&path, "0\n1\n").unwrap();
+        let before = clip_identity(&subject, &options);
+        fs::write(&path, "0\n1.5\n").unwrap();
+        assert_ne!(clip_identity(&subject, &options), before);
     }
 }

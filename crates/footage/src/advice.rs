@@ -8,8 +8,9 @@ use foveate_frame::Frame;
 
 use crate::extension::is_image_name;
 use crate::input::{
-    EntryKind, SkippedInput, collect_skipped_of_clip, collect_skipped_of_set, entries, entry_kind,
-    expand, find_same_number, is_non_file_source, is_pattern, skip_sentences, skipped_by_pattern,
+    EntryKind, SequenceName, SkippedInput, collect_skipped_of_clip, collect_skipped_of_set,
+    entries, entry_kind, expand, find_same_number, is_non_file_source, is_pattern, skip_sentences,
+    skipped_by_pattern, skipped_of_zip,
 };
 use crate::plan::tree;
 use crate::sets::{cifar, idx};
@@ -57,10 +58,14 @@ fn skipped_of(input: &Path, images: ImageRelation) -> Vec<SkippedInput> {
             _ if has_images => collect_skipped_of_clip(&listed, &mut found),
             _ => found = tree(input).map(|tree| tree.skipped).unwrap_or_default(),
         }
-    } else if !input.exists()
-        && let Some(text) = input.to_str().filter(|text| is_pattern(text))
-    {
-        found = skipped_by_pattern(text);
+    } else if input.exists() {
+        found = skipped_of_zip(input);
+    } else if let Some(text) = input.to_str() {
+        match SequenceName::parse(text) {
+            _ if is_pattern(text) => found = skipped_by_pattern(text),
+            Some(name) => found = name.gaps(),
+            None => {}
+        }
     }
     found
 }

@@ -162,6 +162,30 @@ pub enum FootageError {
         /// The text that says what is wrong.
         problem: String,
     },
+    /// Raw video gives no frame.
+    #[error("`{name}` is not raw video of this kind: {problem}")]
+    Raw {
+        /// The name of the file, or of standard input.
+        name: String,
+        /// The text that says what is wrong, and what to check.
+        problem: String,
+    },
+    /// A file of times cannot be used.
+    #[error("the times in `{}` cannot be used: {problem}", path.display())]
+    Timestamps {
+        /// The path of the file.
+        path: PathBuf,
+        /// The text that says what is wrong, and what would be right.
+        problem: String,
+    },
+    /// A ZIP archive cannot be read.
+    #[error("the ZIP archive `{}` cannot be read: {problem}", path.display())]
+    Zip {
+        /// The path of the archive.
+        path: PathBuf,
+        /// The text that says what is wrong, and what to do.
+        problem: String,
+    },
     /// A file of many images cannot be read.
     #[error("data set `{}` cannot be read: {problem}; copy or fetch it again", path.display())]
     DataSet {

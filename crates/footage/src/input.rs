@@ -9,35 +9,46 @@ mod entry;
 mod expansion;
 mod file_kind;
 mod pattern;
+mod sequence;
 mod skip_reason;
 mod skipped_entries;
+mod zip_feed;
+mod zip_listing;
 
+use self::zip_feed::ZipImages;
 pub(crate) use content_kind::unread_image_type_by_content;
 pub(crate) use entry::{EntryKind, entries, entry_kind};
 pub(crate) use expansion::expand;
+pub use expansion::matched_images;
 pub(crate) use pattern::{is_pattern, skipped_by_pattern};
+pub(crate) use sequence::SequenceName;
 pub use skip_reason::{SkipReason, SkippedInput};
 pub(crate) use skip_reason::{find_same_number, skip_sentences};
 pub(crate) use skipped_entries::{
     collect_skipped_of_clip, collect_skipped_of_set, skipped_folder, unreadable_entry,
 };
+pub(crate) use zip_listing::skipped_of_zip;
 
-use std::io::BufReader;
+use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
 use foveate_camera::CameraConfig;
 use foveate_scenes::{Scene, SceneParameters};
-use foveate_toolchain::{InterruptibleReader, standard_input};
+use foveate_toolchain::{Interrupt, InterruptibleReader, standard_input};
 
 use crate::address::{CameraAddress, input_without_secrets};
 use crate::options::{ImageRelation, InputOptions};
+use crate::raw::open_raw;
+use crate::raw_layout::RawLayout;
 use crate::sets::cifar::{CifarBatch, CifarSheet};
 use crate::sets::idx::IdxImages;
 use crate::sets::{open_pipe, open_unpacked};
 use crate::source::feed::{AdjustedSource, FrameAdjustment, FrameFeed};
 use crate::source::file_feeds::{ImageFile, ImageFiles, SceneFeed};
+use crate::source::timestamped_feed::TimestampedFeed;
+use crate::stream::StreamFeed;
 use crate::video::{VideoFeed, VideoMedium};
-use crate::y4m::Y4mFeed;
+use crate::y4m::{Y4mFormat, open_y4m};
 use crate::{FootageError, FrameSource, SourceKind, picture};
 
 /// The side of a scene in pixels if the configuration gives no size.
@@ -56,6 +67,16 @@ pub fn open<P: AsRef<Path>>(
 ) -> Result<Box<dyn FrameSource>, FootageError> {
     let inputs: Vec<&Path> = inputs.iter().map(AsRef::as_ref).collect();
     let feed = open_feed(&inputs, config, options)?;
+    if options.bayer.is_some() && !feed.reads_mosaics() {
+        let problem = "a mosaic is a grey image, or raw video in a grey format; leave the option out for other \
+                       inputs"
+            .to_owned();
+        return Err(FootageError::Option { option: "--bayer", problem });
+    }
+    let feed = match &options.timestamps {
+        Some(file) => Box::new(TimestampedFeed::new(feed, file.clone())?),
+        None => feed,
+    };
     let names = inputs.iter().map(|input| input_without_secrets(input)).collect();
     Ok(Box::new(AdjustedSource::new(names, feed, FrameAdjustment::from_options(options))?))
 }
@@ -106,6 +127,9 @@ fn open_feed(
     }
     // A depth out of range is refused here, so that the message names its key.
     let bits = config.validate()?.pixel_bits();
+    if let Some(layout) = options.raw {
+        return open_raw_input(inputs, layout, bits, options);
+    }
     if let [input] = inputs {
         if let (Some(labels), true) = (&options.labels, is_non_file_source(input)) {
             return Err(labels_without_images(labels));
@@ -154,22 +178,32 @@ fn open_feed(
 }
 
 /// Opens a stream of raw frames that can be read once, from standard input or a pipe.
-fn open_stream(input: &Path, bits: u32, options: &InputOptions) -> Result<Y4mFeed, FootageError> {
-    let interrupt = &options.interrupt;
+fn open_stream(
+    input: &Path,
+    bits: u32,
+    options: &InputOptions,
+) -> Result<StreamFeed<Y4mFormat>, FootageError> {
+    let (name, stream) = open_once(input, &options.interrupt)?;
+    open_y4m(name, stream, bits, options)
+}
+
+/// Opens standard input or a pipe. Returns it with its name in messages.
+fn open_once(
+    input: &Path,
+    interrupt: &Interrupt,
+) -> Result<(String, Box<dyn BufRead + Send>), FootageError> {
     if is_camera_device(input) {
         return Err(FootageError::Device { path: input.to_owned() });
     }
     if input != Path::new("-") {
-        let pipe = open_pipe(input, interrupt)?;
-        return Y4mFeed::new(input.display().to_string(), pipe, bits, options);
+        return Ok((input.display().to_string(), open_pipe(input, interrupt)?));
     }
     let name = "standard input".to_owned();
     let stdin = standard_input().map_err(|error| FootageError::Unreadable {
         path: name.clone().into(),
         problem: error.to_string(),
     })?;
-    let stdin = Box::new(BufReader::new(InterruptibleReader::new(stdin, interrupt)));
-    Y4mFeed::new(name, stdin, bits, options)
+    Ok((name, Box::new(BufReader::new(InterruptibleReader::new(stdin, interrupt)))))
 }
 
 fn labels_without_images(labels: &Path) -> FootageError {
@@ -195,7 +229,7 @@ fn open_images(
             return Err(FootageError::Option { option: "--images", problem: sheets });
         }
     };
-    Ok(Box::new(ImageFiles::new(files, bits, options.frame_rate, kind)))
+    Ok(Box::new(ImageFiles::new(files, bits, options, kind)))
 }
 
 fn open_file_feed(
@@ -211,8 +245,9 @@ fn open_file_feed(
         file_kind::FileKind::CifarBatch => Box::new(CifarBatch::open(path, bits)?),
         file_kind::FileKind::Y4m => {
             let name = path.display().to_string();
-            Box::new(Y4mFeed::new(name, open_unpacked(path)?, bits, options)?)
+            Box::new(open_y4m(name, open_unpacked(path)?, bits, options)?)
         }
+        file_kind::FileKind::Zip => Box::new(ZipImages::open(path, bits, options)?),
         file_kind::FileKind::Video => {
             let sought = options.selection.start_us.filter(|_| !options.numbered);
             let start = sought.unwrap_or(0);
@@ -236,4 +271,38 @@ fn open_scene(
         frames: options.frames.unwrap_or(scene.default_frames()),
     };
     Ok(Box::new(SceneFeed::new(scene, size, options.frame_rate)))
+}
+
+/// Opens raw video from one file or pipe.
+fn open_raw_input(
+    inputs: &[&Path],
+    layout: RawLayout,
+    bits: u32,
+    options: &InputOptions,
+) -> Result<Box<dyn FrameFeed>, FootageError> {
+    let refused = |problem: String| FootageError::Option { option: "--raw", problem };
+    let [input] = inputs else {
+        return Err(refused(format!(
+            "raw video is one file, pipe or `-`, but {} inputs are given",
+            inputs.len()
+        )));
+    };
+    let shown = input_without_secrets(input);
+    if let Some(labels) = &options.labels {
+        return Err(labels_without_images(labels));
+    }
+    if strip_prefix_of("scene:", input).is_some() || is_camera(input) || input.is_dir() {
+        return Err(refused(format!(
+            "`{shown}` is not a file or a pipe of raw video; leave the option out"
+        )));
+    }
+    if *input == Path::new("-") || is_pipe(input) {
+        let (name, stream) = open_once(input, &options.interrupt)?;
+        return Ok(Box::new(open_raw(name, None, stream, layout, bits, options)?));
+    }
+    if !input.exists() {
+        return Err(FootageError::Missing { path: shown.into() });
+    }
+    let stream = open_unpacked(input)?;
+    Ok(Box::new(open_raw(shown, Some(input), stream, layout, bits, options)?))
 }

@@ -5,10 +5,12 @@ use std::path::PathBuf;
 
 use foveate_toolchain::Interrupt;
 
-use crate::FrameRate;
-use crate::LumaRange;
+use crate::bayer::BayerPattern;
 use crate::limits::CropRect;
+use crate::raw_layout::RawLayout;
 use crate::source::selection::FrameSelection;
+use crate::timestamps::TimestampsFile;
+use crate::{FrameRate, LumaRange, Orientation};
 
 /// The relation between image files.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -38,6 +40,14 @@ pub struct InputOptions {
     pub resize: Option<(u32, u32)>,
     /// The range of the luma of video.
     pub luma: LumaRange,
+    /// The layout of raw video. Every input is then a file or a pipe of raw video.
+    pub raw: Option<RawLayout>,
+    /// The mosaic of colours of images and of raw video.
+    pub bayer: Option<BayerPattern>,
+    /// The orientation in which images and video are taken.
+    pub orientation: Orientation,
+    /// The file with the times of the frames of images and of raw video.
+    pub timestamps: Option<TimestampsFile>,
     /// The relation between image files.
     pub images: ImageRelation,
     /// The labels of an IDX file, if they are not beside it under their usual name.

@@ -2,7 +2,7 @@
 //! The reader of image files: PNG, JPEG, BMP and PNM. The content decides the type, not the name.
 //!
 //! * Colour becomes luma by [`luma`], on 8-bit samples or, if the file has more bits, on 16-bit
-//!   samples. Alpha, colour profiles and EXIF orientation are ignored.
+//!   samples. Alpha and colour profiles are ignored, and so is the EXIF orientation unless it is wanted.
 //! * Samples of fewer bits (1-, 2-, 4-bit PNG, PNM with another maximum than 255 or 65535) become
 //!   the nearest value of the full range of 8 or 16 bits.
 //! * These 8 or 16 bits become P bits by [`convert_depth`].
@@ -10,6 +10,7 @@
 //!   with grey. Each format has its own check for errors that its decoder ignores.
 
 mod bmp;
+mod conversion;
 mod damage;
 mod jpeg;
 mod png;
@@ -23,6 +24,7 @@ use foveate_frame::Frame;
 use image::error::{ImageError, LimitErrorKind};
 use image::{DynamicImage, ImageFormat, ImageReader, Limits, RgbImage};
 
+pub(crate) use self::conversion::ImageConversion;
 use self::damage::PictureFault;
 use crate::FootageError;
 use crate::input::unread_image_type_by_content;
@@ -35,7 +37,16 @@ use foveate_frame::{convert_depth, luma};
 /// Fails if the file cannot be read, is too large, truncated or damaged, or is not a supported
 /// image.
 pub fn read(path: &Path, bits: u32) -> Result<Frame, FootageError> {
-    decode(&bytes_of(path)?, path, bits)
+    read_converted(path, bits, ImageConversion::default())
+}
+
+/// Reads an image file with a conversion, see [`read`].
+pub(crate) fn read_converted(
+    path: &Path,
+    bits: u32,
+    conversion: ImageConversion,
+) -> Result<Frame, FootageError> {
+    decode_converted(&bytes_of(path)?, path, bits, conversion)
 }
 
 /// Decodes the bytes of an image. Errors name `path`.
@@ -43,7 +54,17 @@ pub fn read(path: &Path, bits: u32) -> Result<Frame, FootageError> {
 /// # Errors
 /// Fails if the image is too large, truncated or damaged, or is not a supported image.
 pub fn decode(bytes: &[u8], path: &Path, bits: u32) -> Result<Frame, FootageError> {
-    let image = decode_image(bytes, path)?;
+    decode_converted(bytes, path, bits, ImageConversion::default())
+}
+
+/// Decodes the bytes of an image with a conversion, see [`decode`].
+pub(crate) fn decode_converted(
+    bytes: &[u8],
+    path: &Path,
+    bits: u32,
+    conversion: ImageConversion,
+) -> Result<Frame, FootageError> {
+    let image = conversion.convert(decode_image(bytes, path)?, bytes, path)?;
     let (width, height) = (image.width(), image.height());
     let (samples, depth) = luma_samples(image);
     let pixels = samples.into_iter().map(|value| convert_depth(value, depth, bits)).collect();

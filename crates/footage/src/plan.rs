@@ -60,7 +60,9 @@ pub fn plan<P: AsRef<Path>>(
         several if several.iter().all(|path| belongs_to_a_clip(path)) => return Ok(ClipPlan::One),
         _ => {}
     }
-    let mut files = inputs.iter().filter(|path| !is_non_file_source(path));
+    // Raw video may have any name.
+    let named = |path: &&&Path| options.raw.is_none() && !is_non_file_source(path);
+    let mut files = inputs.iter().filter(named);
     if let Some((path, name)) =
         files.find_map(|path| Some((path, unread_image_type_of_entry(path)?)))
     {

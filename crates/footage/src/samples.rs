@@ -4,6 +4,7 @@
 
 use foveate_frame::{ByteFrame, FrameError, convert_depth, luma};
 
+use crate::bayer::{BayerPattern, luma_of_mosaic};
 use crate::luma_range::expanded;
 
 /// The layout of the samples of a frame.
@@ -36,23 +37,12 @@ impl SampleLayout {
     /// Makes the frame with `bits` bits per pixel. Samples above the largest value of their depth
     /// are limited to it.
     pub(crate) fn byte_frame(self, bytes: Vec<u8>, bits: u32) -> Result<ByteFrame, FrameError> {
-        let Self {
-            width,
-            height,
-            depth,
-            is_colour: colour,
-            is_big_endian: big_endian,
-            is_expanded,
-        } = self;
+        let Self { width, height, depth, is_colour: colour, is_expanded, .. } = self;
         if depth == bits && depth == 8 && !colour && !is_expanded {
             return ByteFrame::from_bytes(width, height, bits, bytes);
         }
         let max = u16::MAX >> (16 - depth);
-        let word = |b: &[u8]| match big_endian {
-            true => u16::from_be_bytes([b[0], b[1]]),
-            false => u16::from_le_bytes([b[0], b[1]]),
-        };
-        let words = bytes.chunks_exact(2).map(|b| word(b).min(max));
+        let words = bytes.chunks_exact(2).map(|pair| self.word(pair).min(max));
         let flat = bytes.iter().map(|&byte| u16::from(byte).min(max));
         let pixel_of = |value: u16| {
             let value = if is_expanded { expanded(value, depth) } else { value };
@@ -69,6 +59,33 @@ impl SampleLayout {
             (true, true) => luma_of_colours(words, depth, bits),
         };
         ByteFrame::from_words(width, height, bits, pixels)
+    }
+}
+
+impl SampleLayout {
+    /// Makes the frame of a mosaic, whose pixels are single samples, with `bits` bits per pixel.
+    pub(crate) fn frame_of_mosaic(
+        self,
+        bytes: &[u8],
+        pattern: BayerPattern,
+        bits: u32,
+    ) -> Result<ByteFrame, FrameError> {
+        let max = u16::MAX >> (16 - self.depth);
+        let samples: Vec<u16> = match self.depth > 8 {
+            true => bytes.chunks_exact(2).map(|pair| self.word(pair).min(max)).collect(),
+            false => bytes.iter().map(|&byte| u16::from(byte).min(max)).collect(),
+        };
+        let luma = luma_of_mosaic(&samples, self.width as usize, pattern);
+        let pixels = luma.into_iter().map(|value| convert_depth(value, self.depth, bits)).collect();
+        ByteFrame::from_words(self.width, self.height, bits, pixels)
+    }
+
+    /// Returns the word of two bytes.
+    fn word(self, pair: &[u8]) -> u16 {
+        match self.is_big_endian {
+            true => u16::from_be_bytes([pair[0], pair[1]]),
+            false => u16::from_le_bytes([pair[0], pair[1]]),
+        }
     }
 }
 

@@ -7,6 +7,7 @@ pub(crate) mod memory_source;
 pub(crate) mod scaling;
 pub(crate) mod selection;
 pub(crate) mod set_form;
+pub(crate) mod timestamped_feed;
 
 use foveate_frame::ByteFrame;
 

@@ -12,7 +12,8 @@
 //! * Only [`formats`] that hold their frames themselves are read: a file that is a list of other
 //!   files is refused.
 //! * A late start uses a seek if that gives the same frames, see [`late_start`].
-//! * Rotation is ignored, as is the EXIF orientation of images.
+//! * Rotation is ignored, as is the EXIF orientation of images, unless [`Orientation::Upright`] is
+//!   wanted. Frames are turned here, because the filters of ffmpeg do not turn all pixel formats.
 
 mod decoder;
 mod ffmpeg_log;
@@ -31,9 +32,10 @@ use self::decoder::{DecodingParameters, StartPosition, VideoDecoder};
 use self::ffmpeg_log::AnnouncedFrame;
 use self::probe::VideoProperties;
 use crate::address::CameraAddress;
+use crate::orientation::FrameTurn;
 use crate::samples::SampleLayout;
 use crate::source::feed::FrameFeed;
-use crate::{FootageError, FrameRate, InputOptions, LumaRange, SourceFrame};
+use crate::{FootageError, FrameRate, InputOptions, LumaRange, Orientation, SourceFrame};
 
 /// The time in microseconds after which ffmpeg gives up on a silent network camera.
 const NETWORK_TIMEOUT_US: &str = "10000000";
@@ -114,6 +116,7 @@ pub(crate) struct VideoFeed {
     bits: u32,
     rate: FrameRate,
     luma: LumaRange,
+    turn: FrameTurn,
     /// True if the luma of the stream is expanded.
     is_expanded: bool,
     /// The memory for the next frame.
@@ -131,7 +134,7 @@ impl VideoFeed {
         start_us: u64,
         options: &InputOptions,
     ) -> Result<Self, FootageError> {
-        let &InputOptions { frame_rate: rate, luma, ref interrupt, .. } = options;
+        let &InputOptions { frame_rate: rate, luma, orientation, ref interrupt, .. } = options;
         if medium.is_camera() && luma == LumaRange::Full {
             let problem = format!(
                 "the range of the camera `{}` is not known; leave the option out",
@@ -151,6 +154,13 @@ impl VideoFeed {
         let probe = probe?;
         let conversion = pixel_formats::conversion_filter(&probe.pixel_format);
         let is_expanded = luma == LumaRange::Full && probe.has_narrow_range();
+        let turn = match orientation {
+            Orientation::Stored => FrameTurn::default(),
+            Orientation::Upright => probe.turn.clone().map_err(|problem| FootageError::Option {
+                option: "--orientation upright",
+                problem: format!("`{}`: {problem}", medium.name()),
+            })?,
+        };
         let interrupt = interrupt.clone();
         let ffmpeg = DecodingParameters { found, medium: medium.clone(), conversion, interrupt };
         let sought = late_start::start(&tools, &ffmpeg, &probe, start_us)?;
@@ -167,6 +177,7 @@ impl VideoFeed {
             bits,
             rate,
             luma,
+            turn,
             is_expanded,
             bytes: Vec::new(),
             first_pts,
@@ -180,7 +191,8 @@ impl VideoFeed {
         self.decoder.pixels(shown.layout, &mut bytes).map_err(|error| error.to_string())?;
         let is_expanded = self.is_expanded && !shown.layout.is_colour;
         let layout = SampleLayout { is_expanded, ..shown.layout };
-        layout.byte_frame(bytes, self.bits).map_err(|error| error.to_string())
+        let frame = layout.byte_frame(bytes, self.bits);
+        frame.and_then(|frame| self.turn.turned(frame)).map_err(|error| error.to_string())
     }
 
     /// Returns the time since the first frame in microseconds, by the container, or by the rate if

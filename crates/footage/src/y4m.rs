@@ -5,145 +5,94 @@
 
 mod header;
 
-use std::io::{self, BufRead, Read};
+use std::io::BufRead;
 
 use foveate_frame::ByteFrame;
-use foveate_toolchain::Interrupt;
 
 use self::header::{Y4mHeader, read_line};
 use crate::samples::SampleLayout;
-use crate::source::feed::FrameFeed;
-use crate::{FootageError, FrameRate, InputOptions, LumaRange, SourceFrame};
+use crate::stream::{StreamFeed, StreamFormat, is_at_end, read_whole, skip_whole};
+use crate::{FootageError, InputOptions, LumaRange};
 
 /// The first bytes of a stream.
 pub(crate) const MAGIC: &[u8] = b"YUV4MPEG2";
 
-/// The frames of a stream.
-pub(crate) struct Y4mFeed {
-    name: String,
-    input: Box<dyn BufRead + Send>,
+/// The frames of a stream in YUV4MPEG2.
+pub(crate) struct Y4mFormat {
     header: Y4mHeader,
-    rate: FrameRate,
     luma: LumaRange,
     bits: u32,
-    /// The memory for the next frame.
-    bytes: Vec<u8>,
-    frames: u64,
-    problem: Option<String>,
-    interrupt: Interrupt,
 }
 
-impl Y4mFeed {
-    /// Reads the header. The rate of the options is used for streams that state no rate.
-    pub(crate) fn new(
-        name: String,
-        mut input: Box<dyn BufRead + Send>,
-        bits: u32,
-        options: &InputOptions,
-    ) -> Result<Self, FootageError> {
-        let &InputOptions { frame_rate: rate, luma, ref interrupt, .. } = options;
-        let header = read_line(&mut *input).and_then(|text| Y4mHeader::parse(&text));
-        let header = header.map_err(|problem| match interrupt.is_set() {
-            true => FootageError::Interrupted,
-            false => FootageError::Y4m { name: name.clone(), problem },
-        })?;
-        let rate = header.rate.unwrap_or(rate);
-        let (bytes, interrupt) = (Vec::new(), interrupt.clone());
-        Ok(Self {
-            name,
-            input,
-            header,
-            rate,
-            luma,
-            bits,
-            bytes,
-            frames: 0,
-            problem: None,
-            interrupt,
-        })
-    }
+/// Reads the header of a stream. The rate of the options is used if it states no rate.
+pub(crate) fn open_y4m(
+    name: String,
+    mut input: Box<dyn BufRead + Send>,
+    bits: u32,
+    options: &InputOptions,
+) -> Result<StreamFeed<Y4mFormat>, FootageError> {
+    let &InputOptions { frame_rate: rate, luma, ref interrupt, .. } = options;
+    let header = read_line(&mut *input).and_then(|text| Y4mHeader::parse(&text));
+    let header = header.map_err(|problem| match interrupt.is_set() {
+        true => FootageError::Interrupted,
+        false => FootageError::Y4m { name: name.clone(), problem },
+    })?;
+    let rate = header.rate.unwrap_or(rate);
+    let format = Y4mFormat { header, luma, bits };
+    Ok(StreamFeed::new(name, input, format, rate, interrupt.clone()))
+}
 
-    fn frame(&mut self) -> Result<Option<ByteFrame>, String> {
-        if self.input.fill_buf().map_err(|error| error.to_string())?.is_empty() {
+impl StreamFormat for Y4mFormat {
+    fn read_frame(
+        &mut self,
+        input: &mut dyn BufRead,
+        memory: Vec<u8>,
+    ) -> Result<Option<ByteFrame>, String> {
+        if is_at_end(input)? {
             return Ok(None);
         }
-        let start = read_line(&mut *self.input)?;
+        let start = read_line(input)?;
         if start != "FRAME" && !start.starts_with("FRAME ") {
             return Err("a frame does not start with FRAME".to_owned());
         }
         let Y4mHeader { width, height, depth, others, is_narrow, .. } = self.header;
         let is_expanded = self.luma == LumaRange::Full && is_narrow;
-        let wide = depth > 8;
         let layout = SampleLayout { is_expanded, ..SampleLayout::luma(width, height, depth) };
-        let mut bytes = std::mem::take(&mut self.bytes);
+        let mut bytes = memory;
         bytes.resize(layout.bytes(), 0);
-        self.input.read_exact(&mut bytes).map_err(|error| stream_error(&error))?;
-        let rest = others * if wide { 2 } else { 1 };
-        let skipped = io::copy(&mut (&mut *self.input).take(rest), &mut io::sink());
-        if skipped.map_err(|error| stream_error(&error))? < rest {
-            return Err(stream_error(&io::ErrorKind::UnexpectedEof.into()));
-        }
+        read_whole(input, &mut bytes)?;
+        skip_whole(input, others * if depth > 8 { 2 } else { 1 })?;
         layout.byte_frame(bytes, self.bits).map(Some).map_err(|error| error.to_string())
-    }
-}
-
-impl FrameFeed for Y4mFeed {
-    fn next(&mut self) -> Result<Option<SourceFrame>, FootageError> {
-        if self.problem.is_some() {
-            return Ok(None);
-        }
-        match self.frame() {
-            Ok(frame) => Ok(frame.map(|frame| {
-                let time_us = self.rate.time_us(self.frames);
-                self.frames += 1;
-                SourceFrame { name: self.name.clone(), time_us, label: None, frame }
-            })),
-            Err(_) if self.interrupt.is_set() => Err(FootageError::Interrupted),
-            Err(problem) if self.frames == 0 => {
-                Err(FootageError::Y4m { name: self.name.clone(), problem })
-            }
-            Err(problem) => {
-                self.problem = Some(format!("after {} frames: {problem}", self.frames));
-                Ok(None)
-            }
-        }
     }
 
     fn luma(&self) -> Option<LumaRange> {
         Some(self.luma)
     }
 
-    fn total(&self) -> Option<u64> {
-        None
+    fn takes_timestamps(&self) -> bool {
+        false
     }
 
-    fn recycle(&mut self, bytes: Vec<u8>) {
-        self.bytes = bytes;
+    fn reads_mosaics(&self) -> bool {
+        false
     }
 
-    fn problem(&self) -> Option<String> {
-        self.problem.clone()
-    }
-
-    fn is_stream(&self) -> bool {
-        true
-    }
-}
-
-fn stream_error(error: &io::Error) -> String {
-    match error.kind() {
-        io::ErrorKind::UnexpectedEof => "the stream ends inside a frame".to_owned(),
-        _ => error.to_string(),
+    fn no_frame_error(&self, name: String, problem: String) -> FootageError {
+        FootageError::Y4m { name, problem }
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::io;
+
     use super::*;
+    use crate::SourceFrame;
+    use crate::source::feed::FrameFeed as _;
 
     fn read(bytes: &[u8], bits: u32) -> Result<(Vec<SourceFrame>, Option<String>), FootageError> {
         let input = Box::new(io::Cursor::new(bytes.to_vec()));
-        let mut stream = Y4mFeed::new("-".to_owned(), input, bits, &InputOptions::default())?;
+        let mut stream = open_y4m("-".to_owned(), input, bits, &InputOptions::default())?;
         let mut frames = Vec::new();
         while let Some(frame) = stream.next()? {
             frames.push(frame);

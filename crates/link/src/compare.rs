@@ -70,6 +70,7 @@ pub fn compare(
         foveate_version: env!("CARGO_PKG_VERSION"),
         ffmpeg,
         effort: request.preset.name(),
+        luma: request.input.luma.name(),
         link_bits_per_second: request.link_bits_per_second,
         clock_hz: request.clock_hz,
         clips,

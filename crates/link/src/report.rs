@@ -22,6 +22,8 @@ pub struct LinkReport {
     pub ffmpeg: String,
     /// The preset of x264 and x265.
     pub effort: &'static str,
+    /// The range of the luma of clips that are video: `coded` or `full`.
+    pub luma: &'static str,
     /// The rate of the link in bits per second.
     pub link_bits_per_second: u64,
     /// The clock of the array in Hz. Without one, the array takes no time.

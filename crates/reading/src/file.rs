@@ -30,12 +30,26 @@ pub fn read_settings(path: &Path) -> io::Result<String> {
     read_text(path, SETTINGS_LIMIT)
 }
 
+/// Reads the text of a settings file from a source that is open already, such as standard input.
+///
+/// # Errors
+/// Fails like [`read_text`].
+pub fn settings_from(source: impl Read) -> io::Result<String> {
+    let mut bytes = Vec::new();
+    LimitedReader::new(source, SETTINGS_LIMIT).read_to_end(&mut bytes)?;
+    text_of(bytes)
+}
+
 /// Reads a UTF-8 text of at most `limit` bytes.
 ///
 /// # Errors
 /// Fails like [`read_bytes`], and if the file is not text ([`io::ErrorKind::InvalidData`]).
 pub fn read_text(path: &Path, limit: u64) -> io::Result<String> {
-    String::from_utf8(read_bytes(path, limit)?).map_err(|error| {
+    text_of(read_bytes(path, limit)?)
+}
+
+fn text_of(bytes: Vec<u8>) -> io::Result<String> {
+    String::from_utf8(bytes).map_err(|error| {
         let place = error.utf8_error().valid_up_to();
         let message = format!("it is not text in UTF-8, from byte {place} on");
         io::Error::new(io::ErrorKind::InvalidData, message)

@@ -20,7 +20,7 @@ mod packed;
 mod size_text;
 mod table;
 
-pub use file::{SETTINGS_LIMIT, read_bytes, read_settings, read_text};
+pub use file::{SETTINGS_LIMIT, read_bytes, read_settings, read_text, settings_from};
 pub use limited_reader::LimitedReader;
 pub use packed::{GZIP_MAGIC, unpacked};
 pub use table::{RECORD_LIMIT, TableReader, TableRecords, table_reader};

@@ -42,6 +42,8 @@ pub struct StudyRequest<'a> {
 pub struct StudyReport {
     /// The name of the study.
     pub study: &'static str,
+    /// The range of the luma of clips that are video: `coded` or `full`.
+    pub luma: &'static str,
     /// The names of the files.
     pub files: Vec<String>,
     /// The columns of the table.
@@ -103,7 +105,15 @@ pub fn analyze(
     staging.commit()?;
     let StudyFindings { table: StudyTable { columns, rows }, printed: shown, problems, .. } =
         findings;
-    Ok(StudyReport { study: study.name(), files, columns, rows, problems, printed: shown })
+    Ok(StudyReport {
+        study: study.name(),
+        luma: request.input.luma.name(),
+        files,
+        columns,
+        rows,
+        problems,
+        printed: shown,
+    })
 }
 
 fn run_study(

@@ -14,11 +14,12 @@ use super::input::InputArgs;
 /// Check a configuration and print the design that it describes: grid, widths, clocks, ports
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate check camera.toml
+          foveate presets paper | foveate check -
           foveate check --preset serial --min-fps 1000 --clock 50MHz
           foveate check --preset raster --clip scene:street --frames 30 --link 10Mbit",
     mut_group("InputArgs", |group| group.requires("clip")))]
 pub(crate) struct CheckArgs {
-    /// Configuration file (TOML); the same as --config
+    /// Configuration file (TOML), or - for standard input; the same as --config
     #[arg(value_name = "FILE", conflicts_with_all = ["config", "preset"])]
     pub(crate) file: Option<PathBuf>,
     #[command(flatten)]

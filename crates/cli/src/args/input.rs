@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use foveate_footage::{
-    CropRect, FrameRate, FrameSelection, ImageRelation, InputOptions, LumaRange, MAX_SIDE,
-    input_warnings, parse_time,
+    BayerPattern, CropRect, FrameRate, FrameSelection, ImageRelation, InputOptions, LumaRange,
+    MAX_SIDE, Orientation, RawLayout, TimestampUnit, TimestampsFile, input_warnings, parse_time,
 };
 
 use super::at_least_one;
@@ -41,6 +41,23 @@ pub(crate) struct InputArgs {
     /// range, to which players and OpenCV expand it
     #[arg(long, value_enum, value_name = "RANGE", default_value = "coded")]
     pub(crate) luma: LumaChoice,
+    /// Orientation of images and video: as they are stored, or upright, as the EXIF data and the marks of
+    /// phones say
+    #[arg(long, value_enum, value_name = "HOW", default_value = "stored")]
+    pub(crate) orientation: OrientationChoice,
+    /// Read raw video of this size and pixel format, for example 640x480,gray16le, from a file, a pipe or -
+    #[arg(long, value_name = "WxH,FORMAT", value_parser = RawLayout::parse)]
+    pub(crate) raw: Option<RawLayout>,
+    /// Colours of the upper left 2x2 pixels of a mosaic, row by row; grey images and raw video are then
+    /// mosaics of a Bayer filter
+    #[arg(long, value_enum, value_name = "PATTERN")]
+    pub(crate) bayer: Option<BayerChoice>,
+    /// File with the times of images or of raw video, one line per frame
+    #[arg(long, value_name = "FILE")]
+    pub(crate) timestamps: Option<PathBuf>,
+    /// Unit of the times in --timestamps
+    #[arg(long, value_enum, value_name = "UNIT", default_value = "s", requires = "timestamps")]
+    pub(crate) timestamp_unit: TimestampUnitChoice,
     /// Meaning of image files: frames of a clip, a set of unrelated images (sub-folders are
     /// labels), or CIFAR sheets with one image per row [default: clip; for `dataset`: set]
     #[arg(long, value_enum, value_name = "WHAT")]
@@ -54,6 +71,28 @@ pub(crate) struct InputArgs {
 pub(crate) enum LumaChoice {
     Coded,
     Full,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub(crate) enum OrientationChoice {
+    Stored,
+    Upright,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub(crate) enum BayerChoice {
+    Rggb,
+    Bggr,
+    Grbg,
+    Gbrg,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub(crate) enum TimestampUnitChoice {
+    S,
+    Ms,
+    Us,
+    Ns,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
@@ -88,6 +127,16 @@ impl InputArgs {
                 LumaChoice::Coded => LumaRange::Coded,
                 LumaChoice::Full => LumaRange::Full,
             },
+            orientation: match self.orientation {
+                OrientationChoice::Stored => Orientation::Stored,
+                OrientationChoice::Upright => Orientation::Upright,
+            },
+            raw: self.raw,
+            bayer: self.bayer.map(BayerChoice::pattern),
+            timestamps: self
+                .timestamps
+                .clone()
+                .map(|path| TimestampsFile { path, unit: self.timestamp_unit.unit() }),
             images: match self.images {
                 None => images,
                 Some(ImagesChoice::Clip) => ImageRelation::Clip,
@@ -97,6 +146,28 @@ impl InputArgs {
             labels: self.labels.clone(),
             numbered: false,
             interrupt: interrupt::stop_request(),
+        }
+    }
+}
+
+impl BayerChoice {
+    fn pattern(self) -> BayerPattern {
+        match self {
+            Self::Rggb => BayerPattern::Rggb,
+            Self::Bggr => BayerPattern::Bggr,
+            Self::Grbg => BayerPattern::Grbg,
+            Self::Gbrg => BayerPattern::Gbrg,
+        }
+    }
+}
+
+impl TimestampUnitChoice {
+    fn unit(self) -> TimestampUnit {
+        match self {
+            Self::S => TimestampUnit::Seconds,
+            Self::Ms => TimestampUnit::Milliseconds,
+            Self::Us => TimestampUnit::Microseconds,
+            Self::Ns => TimestampUnit::Nanoseconds,
         }
     }
 }

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{expect_failure, files_below, run_in, run_successfully};
+use crate::common::{expect_failure, files_below, foveate, run_in, run_successfully};
 use serde_json::Value;
 
 fn repository() -> &'static Path {
@@ -25,6 +25,28 @@ fn check_prints_the_card_as_text_and_json() {
     assert_eq!(card["grid"]["regions"], 196);
     assert_eq!(card["timing"]["cycles_per_frame"], 256);
     assert_eq!(card["rcm_ports"].as_array().unwrap().len(), 16);
+}
+
+#[test]
+fn check_reads_standard_input() {
+    let dir = tempfile::tempdir().unwrap();
+    let check = |text: &str, args: &[&str]| {
+        let mut command = foveate(args);
+        command.current_dir(dir.path()).write_stdin(text.to_owned());
+        command.output().unwrap()
+    };
+    for args in [&["check", "-"][..], &["check", "--config", "-"]] {
+        let found = check("[region]\nsize = 16\n", args);
+        let text = String::from_utf8(found.stdout).unwrap();
+        assert!(found.status.success() && text.contains("14 x 14 = 196 regions"), "{text}");
+        // The text is read again for the message of an error.
+        let wrong = check("[region]\nsize = 0\n", args);
+        let said = String::from_utf8(wrong.stderr).unwrap();
+        assert!(wrong.status.code() == Some(2) && said.contains("region.size"), "{said}");
+    }
+    let long = check(&"#".repeat((1 << 20) + 1), &["check", "-"]);
+    let said = String::from_utf8(long.stderr).unwrap();
+    assert!(said.contains("larger than 1 MiB"), "{said}");
 }
 
 /// The card of every organization shows what irrelevant regions send, and benches count it.

@@ -77,6 +77,7 @@ const CALLS: &[(&str, &str, &str)] = &[
     ),
     ("link", "<INPUT>...", "link ENDLESS -o out"),
     ("several", "--config", "check --config ENDLESS"),
+    ("several", "--timestamps", "simulate image.pgm --timestamps ENDLESS -o out"),
     ("several", "--labels", "simulate images-idx3-ubyte --labels ENDLESS -o out"),
 ];
 
@@ -143,6 +144,7 @@ fn prepare(folder: &Path) {
     fs::create_dir(folder.join("rtl")).unwrap();
     link("rtl/rcm.v");
     fs::write(folder.join("cells.lib"), "library (a) { cell (b) { area : 1; } }").unwrap();
+    fs::write(folder.join("image.pgm"), "P2 2 1 255 1 2\n").unwrap();
     let images = [0, 0, 8, 3, 0, 0, 0, 1, 0, 0, 0, 8, 0, 0, 0, 8];
     fs::write(folder.join("images-idx3-ubyte"), [&images[..], &[7; 64]].concat()).unwrap();
 }

@@ -3,6 +3,7 @@
 //! of each fault.
 
 use std::fs;
+use std::io::Write as _;
 use std::path::Path;
 use std::process::Command;
 
@@ -70,6 +71,10 @@ fn the_range_of_luma_is_chosen_and_named() {
         let explored = with(&[&explore[..], &["-o", "space"]].concat());
         let explored: Value = serde_json::from_str(&explored).unwrap();
         assert_eq!(explored["luma"], range);
+        let analyzed =
+            with(&["analyze", "size", "a.y4m", "--quiet", "--json", "-o", "size", "--force"]);
+        let analyzed: Value = serde_json::from_str(&analyzed).unwrap();
+        assert_eq!(analyzed["luma"], range);
         // Finished results of another range are not used.
         assert_eq!(explored["rows"][0]["figures"]["active"], summary["active_share"]);
     }
@@ -159,4 +164,66 @@ fn options_that_make_no_sense_are_refused() {
         assert!(outcome.stderr.contains(part), "{}", outcome.stderr);
         assert!(!dir.path().join("out").exists());
     }
+}
+
+/// Numbered images with times of their own, an archive, and raw video give the same decisions.
+#[test]
+fn numbered_images_archives_and_raw_video_are_the_same_clip() {
+    let dir = tempfile::tempdir().unwrap();
+    let at = |name: &str| dir.path().join(name);
+    let mut raw = Vec::new();
+    let mut archive = zip::ZipWriter::new(fs::File::create(at("clip.zip")).unwrap());
+    for frame in 0..4_u8 {
+        let pixels: Vec<u8> =
+            (0..=255).map(|at: u8| at.wrapping_mul(7) ^ frame.wrapping_mul(91)).collect();
+        let image = [&b"P5 16 16 255\n"[..], &pixels].concat();
+        let name = format!("f{frame:02}.pgm");
+        fs::write(at(&name), &image).unwrap();
+        archive.start_file(name, zip::write::SimpleFileOptions::default()).unwrap();
+        archive.write_all(&image).unwrap();
+        raw.extend(pixels);
+    }
+    archive.finish().unwrap();
+    fs::write(at("clip.raw"), &raw).unwrap();
+    fs::write(at("times.txt"), "0\n40\n80\n200\n").unwrap();
+    let base = ["simulate", "--quiet", "--timestamps", "times.txt", "--timestamp-unit", "ms"];
+    for (output, input) in [
+        ("images", &["f%02d.pgm"][..]),
+        ("zip", &["clip.zip"]),
+        ("raw", &["clip.raw", "--raw", "16x16,gray"]),
+    ] {
+        run_successfully(dir.path(), &[&base, input, &["-o", output]].concat());
+    }
+    let piped = foveate(&["simulate", "--quiet", "-", "--raw", "16x16,gray", "-o", "piped"])
+        .current_dir(dir.path())
+        .write_stdin(raw)
+        .output()
+        .unwrap();
+    assert!(piped.status.success());
+    let active = |folder: &str| fs::read(at(folder).join("active.npy")).unwrap();
+    let times = |folder: &str| -> Vec<String> {
+        let table = fs::read_to_string(at(folder).join("frames.csv")).unwrap();
+        table.lines().skip(1).map(|line| line.split(',').nth(1).unwrap().to_owned()).collect()
+    };
+    for folder in ["zip", "raw", "piped"] {
+        assert!(active(folder) == active("images"), "{folder}");
+    }
+    for folder in ["images", "zip", "raw"] {
+        assert_eq!(times(folder), ["0", "40000", "80000", "200000"], "{folder}");
+    }
+    assert_eq!(times("piped"), ["0", "33333", "66667", "100000"]);
+    // A missing number is named, and the images behind it come one frame too early.
+    fs::remove_file(at("f02.pgm")).unwrap();
+    let gap = run_in(dir.path(), &["simulate", "f%02d.pgm", "-o", "gap"]);
+    assert!(gap.code == 0 && gap.stderr.contains("f02.pgm` does not exist"), "{}", gap.stderr);
+    expect_failure(
+        dir.path(),
+        2,
+        &["simulate", "f%02d.pgm", "--timestamps", "times.txt", "-o", "few"],
+        &["it has 4 times, but there are 3 frames"],
+    );
+    let grey = ["simulate", "clip.raw", "--raw", "16x16,grey", "-o", "wrong"];
+    let wrong = run_in(dir.path(), &grey);
+    let said = "the pixel format `grey` is not read; the formats are gray, gray10le";
+    assert!(wrong.code == 2 && wrong.stderr.contains(said), "{}", wrong.stderr);
 }

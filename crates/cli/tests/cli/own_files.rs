@@ -238,7 +238,15 @@ fn files_of_others_survive_every_command() {
 #[test]
 fn a_file_that_is_replaced_keeps_its_mode() {
     use std::os::unix::fs::{MetadataExt as _, PermissionsExt as _};
-    let read = ["--config", "--labels", "--boxes", "--sensor-events", "--sink-stalls", "--macros"];
+    let read = [
+        "--config",
+        "--labels",
+        "--boxes",
+        "--sensor-events",
+        "--sink-stalls",
+        "--macros",
+        "--timestamps",
+    ];
     let is_read = |option: &String| read.iter().any(|read| option.ends_with(read));
     let written =
         ["cosim --junit", "cosim --packets", "estimate --netlist", "fit --output", "live --page"];

@@ -10,6 +10,9 @@ use image::ImageFormat;
 use crate::sets::idx;
 use crate::y4m;
 
+/// The first bytes of a ZIP archive with entries, and of one without.
+const ZIP_MAGICS: [&[u8]; 2] = [b"PK\x03\x04", b"PK\x05\x06"];
+
 /// The number of bytes that are read.
 const START: u64 = 512;
 
@@ -22,6 +25,8 @@ pub(crate) enum ContentKind {
     OtherImage(&'static str),
     Video,
     DataSet,
+    /// A ZIP archive.
+    Archive,
     Text,
     Unknown,
 }
@@ -69,6 +74,8 @@ pub(crate) fn content_kind_of(start: &[u8]) -> ContentKind {
         ContentKind::Video
     } else if start.starts_with(&idx::MAGIC) {
         ContentKind::DataSet
+    } else if ZIP_MAGICS.iter().any(|magic| start.starts_with(magic)) {
+        ContentKind::Archive
     } else if is_text(start) {
         ContentKind::Text
     } else {
@@ -150,6 +157,7 @@ mod tests {
             (b"YUV4MPEG2 W4 H4", ContentKind::Video),
             (&transport, ContentKind::Video),
             (b"\0\0\x08\x03\0\0\0\x02", ContentKind::DataSet),
+            (b"PK\x03\x04\x14\0", ContentKind::Archive),
             ("schöne Zeilen\n\x1B[1mfett".as_bytes(), ContentKind::Text),
             (&"ö".as_bytes()[..1], ContentKind::Unknown),
             (b"", ContentKind::Unknown),

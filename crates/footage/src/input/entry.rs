@@ -66,6 +66,7 @@ fn skip_reason(path: &Path) -> Option<SkipReason> {
         Ok(ContentKind::Image | ContentKind::Video) => Some(SkipReason::OtherExtension),
         Ok(ContentKind::OtherImage(name)) => Some(SkipReason::ImageType { name }),
         Ok(ContentKind::DataSet) => Some(SkipReason::DataSet),
+        Ok(ContentKind::Archive) => Some(SkipReason::Archive),
         Ok(ContentKind::Text | ContentKind::Unknown) => {
             path.extension().is_none().then_some(SkipReason::NoExtension)
         }
@@ -95,7 +96,7 @@ pub(crate) fn in_natural_order(mut paths: Vec<PathBuf>) -> Vec<PathBuf> {
 }
 
 /// Returns true if an entry cannot be footage: it is hidden, or an operating system created it.
-fn is_hidden(path: &Path) -> bool {
+pub(super) fn is_hidden(path: &Path) -> bool {
     const LEFT_BEHIND: [&str; 8] = [
         "thumbs.db",
         "ehthumbs.db",

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use super::entry::{EntryKind, entries, entry_kind};
 use super::file_kind::{self, FileKind};
 use super::pattern::{is_pattern, pattern_images};
+use super::sequence::SequenceName;
 use super::skip_reason::SkipReason;
 use crate::address::input_without_secrets;
 use crate::extension::is_image_name;
@@ -27,8 +28,18 @@ pub(crate) fn expand(input: &Path, images: ImageRelation) -> Result<Vec<ImageFil
     match input.to_str() {
         Some(text) if is_url(text) => Err(FootageError::Url { url: input_without_secrets(input) }),
         Some(text) if is_pattern(text) => pattern_images(text),
-        _ => Err(FootageError::Missing { path: input_without_secrets(input).into() }),
+        text => match text.and_then(SequenceName::parse) {
+            Some(name) => name.images(&input.display().to_string()),
+            None => Err(FootageError::Missing { path: input_without_secrets(input).into() }),
+        },
     }
+}
+
+/// Returns the images that a pattern or the name of numbered files matches.
+#[must_use]
+pub fn matched_images(input: &Path) -> Vec<PathBuf> {
+    let files = expand(input, ImageRelation::Clip).unwrap_or_default();
+    files.into_iter().map(|file| file.path).collect()
 }
 
 /// Returns true if a text begins with a scheme such as `https://`.

@@ -16,6 +16,8 @@ pub(crate) enum FileKind {
     Idx,
     CifarBatch,
     Y4m,
+    /// A ZIP archive of images.
+    Zip,
     /// Any file that ffmpeg can read.
     Video,
 }
@@ -64,6 +66,7 @@ pub(crate) fn file_kind(path: &Path) -> Result<FileKind, FootageError> {
                 problem: "it is text".to_owned(),
             });
         }
+        ContentKind::Archive => return Ok(FileKind::Zip),
         ContentKind::Image | ContentKind::Video | ContentKind::DataSet | ContentKind::Text => None,
     };
     match other {

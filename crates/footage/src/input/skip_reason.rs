@@ -40,6 +40,10 @@ pub enum SkipReason {
     TooDeep,
     /// It is a link to a folder that contains the link.
     LinkLoop,
+    /// It is a file that would lie between two numbered ones, and does not exist.
+    NumberGap,
+    /// It is an archive, which is read if it is named.
+    Archive,
     /// It is a file that a pattern matches only if capital and small letters are equal.
     OtherCase,
 }
@@ -86,6 +90,11 @@ fn skip_sentence(place: &Path, group: &[&SkippedInput]) -> String {
             "images and videos in folders below `{place}`, such as `{shown}`, are ignored; --images set reads \
              images, with the names of their folders as labels"
         ),
+        (SkipReason::NumberGap, gaps) => format!(
+            "the numbers of `{place}` have {gaps} gap{}: `{shown}` does not exist; the frames behind a gap come too \
+             early",
+            if gaps == 1 { "" } else { "s, the first of them" }
+        ),
         (_, 1) => format!("`{shown}` is skipped: {reason}"),
         (_, more) => {
             format!("{more} entries of `{place}` are skipped, such as `{shown}`: {reason}")
@@ -116,6 +125,8 @@ impl fmt::Display for SkipReason {
             Self::BelowClip => f.write_str("folders below a clip are not read"),
             Self::TooDeep => f.write_str("it lies deeper than folders are searched; name it on its own"),
             Self::LinkLoop => f.write_str("it links to a folder in which it lies itself; remove the link"),
+            Self::NumberGap => f.write_str("it does not exist"),
+            Self::Archive => f.write_str("archives are not looked for in folders; name it on its own"),
             Self::OtherCase => f.write_str(
                 "the pattern matches it only if capital and small letters count as the same; write `[pP]` for both",
             ),

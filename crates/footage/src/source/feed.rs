@@ -49,6 +49,16 @@ pub(crate) trait FrameFeed: Send {
         false
     }
 
+    /// Returns true if the pixels may be those of a mosaic of colours.
+    fn reads_mosaics(&self) -> bool {
+        false
+    }
+
+    /// Returns true if the user may give the frames times, because they have none of their own.
+    fn takes_timestamps(&self) -> bool {
+        false
+    }
+
     /// Returns true if the frames before a fault are worth keeping, as for a long recording.
     fn is_stream(&self) -> bool {
         false

@@ -9,7 +9,8 @@ use foveate_scenes::{Scene, SceneFrames, SceneParameters};
 use super::feed::FrameFeed;
 use super::set_form::{SetFiles, SetForm, SetLabels};
 use super::{SourceFrame, SourceKind};
-use crate::{FootageError, FrameRate, picture};
+use crate::picture::{self, ImageConversion};
+use crate::{FootageError, FrameRate, InputOptions};
 
 /// An image file, with the label that its folder gives it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -34,10 +35,16 @@ pub(crate) struct ImageFiles {
     rate: FrameRate,
     kind: SourceKind,
     labels: SetLabels,
+    conversion: ImageConversion,
 }
 
 impl ImageFiles {
-    pub(crate) fn new(files: Vec<ImageFile>, bits: u32, rate: FrameRate, kind: SourceKind) -> Self {
+    pub(crate) fn new(
+        files: Vec<ImageFile>,
+        bits: u32,
+        options: &InputOptions,
+        kind: SourceKind,
+    ) -> Self {
         let total = files.len() as u64;
         let names: BTreeSet<&String> =
             files.iter().filter_map(|file| file.label.as_ref()).collect();
@@ -46,7 +53,16 @@ impl ImageFiles {
         } else {
             SetLabels::Names(names.into_iter().cloned().collect())
         };
-        Self { files: files.into_iter(), total, next: 0, bits, rate, kind, labels }
+        Self {
+            files: files.into_iter(),
+            total,
+            next: 0,
+            bits,
+            rate: options.frame_rate,
+            kind,
+            labels,
+            conversion: ImageConversion::from_options(options),
+        }
     }
 }
 
@@ -55,7 +71,7 @@ impl FrameFeed for ImageFiles {
         let Some(ImageFile { path, label }) = self.files.next() else {
             return Ok(None);
         };
-        let frame = (&picture::read(&path, self.bits)?).into();
+        let frame = (&picture::read_converted(&path, self.bits, self.conversion)?).into();
         let time_us = self.kind.time_us(self.rate, self.next);
         self.next += 1;
         Ok(Some(SourceFrame { name: path.display().to_string(), time_us, label, frame }))
@@ -70,6 +86,14 @@ impl FrameFeed for ImageFiles {
     }
 
     fn is_file_per_frame(&self) -> bool {
+        true
+    }
+
+    fn takes_timestamps(&self) -> bool {
+        true
+    }
+
+    fn reads_mosaics(&self) -> bool {
         true
     }
 

@@ -4,6 +4,7 @@
 use foveate_frame::ByteFrame;
 
 use super::feed::{AdjustedSource, FrameAdjustment, FrameFeed};
+use super::timestamped_feed::TimestampedFeed;
 use super::{FrameSource, SourceFrame, SourceKind};
 use crate::{FootageError, FrameRate, ImageRelation, InputOptions};
 
@@ -39,19 +40,26 @@ pub fn source_from_memory(
     if options.labels.is_some() {
         return Err(of_files("--labels", "labelled images"));
     }
-    let feed = MemoryFeed {
+    if options.raw.is_some() {
+        return Err(of_files("--raw", "raw video"));
+    }
+    if options.bayer.is_some() {
+        return Err(of_files("--bayer", "images of a mosaic"));
+    }
+    let feed: Box<dyn FrameFeed> = Box::new(MemoryFeed {
         name: name.to_owned(),
         total: frames.len() as u64,
         frames: frames.into_iter(),
         next: 0,
         rate: options.frame_rate,
         kind,
+    });
+    let feed = match &options.timestamps {
+        Some(file) => Box::new(TimestampedFeed::new(feed, file.clone())?),
+        None => feed,
     };
-    Ok(Box::new(AdjustedSource::new(
-        vec![name.to_owned()],
-        Box::new(feed),
-        FrameAdjustment::from_options(options),
-    )?))
+    let names = vec![name.to_owned()];
+    Ok(Box::new(AdjustedSource::new(names, feed, FrameAdjustment::from_options(options))?))
 }
 
 impl FrameFeed for MemoryFeed {
@@ -69,5 +77,9 @@ impl FrameFeed for MemoryFeed {
 
     fn kind(&self) -> SourceKind {
         self.kind
+    }
+
+    fn takes_timestamps(&self) -> bool {
+        true
     }
 }

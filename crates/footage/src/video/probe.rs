@@ -9,12 +9,13 @@ use serde::Deserialize;
 
 use super::{VideoMedium, formats};
 use crate::FootageError;
+use crate::orientation::FrameTurn;
 
 /// The time limit of ffprobe. A file that takes longer cannot be read.
 const LIMIT: Duration = Duration::from_secs(60);
 
 /// The properties of a video.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct VideoProperties {
     /// The number of frames, if the container states it.
     pub(super) frames: Option<u64>,
@@ -24,6 +25,8 @@ pub(super) struct VideoProperties {
     pub(super) codec: String,
     /// The name of the pixel format. It is empty for a medium that was not probed.
     pub(super) pixel_format: String,
+    /// The turn after which the frames stand upright, or a text that says why there is none.
+    pub(super) turn: Result<FrameTurn, String>,
     /// The name of the range of its values: `tv`, `pc`, or empty if the stream does not state it.
     pub(super) colour_range: String,
 }
@@ -51,6 +54,22 @@ struct FfprobeStream {
     #[serde(default)]
     color_range: String,
     nb_frames: Option<String>,
+    #[serde(default)]
+    side_data_list: Vec<FfprobeSideData>,
+}
+
+#[derive(Deserialize)]
+struct FfprobeSideData {
+    displaymatrix: Option<String>,
+}
+
+impl Default for VideoProperties {
+    fn default() -> Self {
+        let (container, codec) = (String::new(), String::new());
+        let (pixel_format, colour_range) = (String::new(), String::new());
+        let turn = Ok(FrameTurn::default());
+        Self { frames: None, container, codec, pixel_format, colour_range, turn }
+    }
 }
 
 impl VideoProperties {
@@ -64,7 +83,8 @@ impl VideoProperties {
             .args(["-v", "error", "-select_streams", "v:0"])
             .args([
                 "-show_entries",
-                "stream=pix_fmt,codec_name,color_range,nb_frames:format=format_name",
+                "stream=pix_fmt,codec_name,color_range,nb_frames:format=format_name:\
+                 stream_side_data=displaymatrix",
             ])
             .args(["-of", "json"])
             .args(medium.arguments())
@@ -87,12 +107,14 @@ impl VideoProperties {
             .map_err(|error| refused(format!("ffprobe's answer cannot be read: {error}")))?;
         let stream = answer.streams.into_iter().next();
         let stream = stream.ok_or_else(|| refused("it has no video stream".to_owned()))?;
+        let matrix = stream.side_data_list.into_iter().find_map(|data| data.displaymatrix);
         let frames = stream.nb_frames.and_then(|number| number.parse().ok());
         Ok(Self {
             frames,
             container: answer.format.format_name,
             codec: stream.codec_name,
             pixel_format: stream.pix_fmt,
+            turn: matrix.map_or(Ok(FrameTurn::default()), |text| turn_of_matrix(&text)),
             colour_range: stream.color_range,
         })
     }
@@ -104,6 +126,24 @@ impl VideoProperties {
             |prefixes: &[&str]| prefixes.iter().any(|own| self.pixel_format.starts_with(own));
         !starts(&["yuvj", "gray", "ya", "mono"]) && self.colour_range != "pc"
     }
+}
+
+/// Returns the turn of a display matrix, as ffprobe prints it: three lines of three numbers, of which 65536 is
+/// one.
+fn turn_of_matrix(text: &str) -> Result<FrameTurn, String> {
+    let rows = text.lines().filter_map(|line| line.split_once(':'));
+    let numbers: Vec<i64> = rows
+        .flat_map(|(_, row)| row.split_whitespace())
+        .filter_map(|word| word.parse().ok())
+        .collect();
+    let linear = match numbers.as_slice() {
+        [a, b, _, c, d, ..] => [*a, *b, *c, *d].map(i64::signum),
+        _ => return Err("its display matrix cannot be read".to_owned()),
+    };
+    FrameTurn::of_axes(linear).ok_or_else(|| {
+        "its display matrix turns the frames by other angles than 90, 180 and 270 degrees; leave the option out"
+            .to_owned()
+    })
 }
 
 /// Returns a text that names the format of a file that is not read. ffprobe names it only among its
