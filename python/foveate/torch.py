@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Data sets and transforms for PyTorch whose images are the screen of a region camera's receiver.
+"""Data sets and transforms for PyTorch: images as the receiver of a region camera shows them, and region events of clips.
 
 Every image is a first frame, so every TRS is 1 and SRS alone decides, as in ``foveate dataset``. Needs ``torch``.
 """
@@ -20,7 +20,9 @@ try:
 except ModuleNotFoundError:
     raise missing_package_error("foveate.torch", "torch", "torch") from None
 
-__all__ = ["RegionDataset", "RegionTransform"]
+from foveate._torch_events import RegionEvents
+
+__all__ = ["RegionDataset", "RegionEvents", "RegionTransform"]
 
 _T = TypeVar("_T")
 

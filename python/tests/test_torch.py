@@ -2,6 +2,7 @@
 """Tests of the data sets and transforms of PyTorch."""
 import copy
 import pickle
+import shutil
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -11,7 +12,9 @@ from PIL import Image
 import foveate as fv
 
 torch = pytest.importorskip("torch")
-from foveate.torch import RegionDataset, RegionTransform  # noqa: E402
+import pyarrow.parquet as pq  # noqa: E402
+
+from foveate.torch import RegionDataset, RegionEvents, RegionTransform  # noqa: E402
 
 
 def images(count=20, shape=(28, 28)):
@@ -107,3 +110,70 @@ def test_a_transform_follows_the_regions():
     assert len(regions) == 2 and regions[1][0].dtype == np.float32 and regions[1][1] == 3
     with pytest.raises(IndexError):
         regions[2]
+
+
+@pytest.fixture(scope="module")
+def clip_folder(command, tmp_path_factory):
+    """Returns a function that makes the folder of a scene."""
+    def make(name, *words):
+        folder = tmp_path_factory.mktemp("clips") / name
+        command("simulate", "scene:street", "--rendered", "none", "--quiet", "--events", "parquet", "-o", folder, *words)
+        return folder
+
+    return make
+
+
+def test_region_events_are_the_rows_of_the_table(clip_folder):
+    flow = ["--set", "hardware.organization='serial'", "--set", "spatial=[{feature='edge'},{feature='flow'}]"]
+    for words in (["--frames", "9"], ["--frames", "6", "--only", "active"], ["--frames", "3", *flow]):
+        folder = clip_folder("clip", *words)
+        events = RegionEvents(folder)
+        table = pq.read_table(folder / "events.parquet").to_pandas()
+        assert len(events) == int(words[1])
+        for number in range(len(events)):
+            item, rows = events[number], table[table["frame"] == number]
+            assert int(item["frame"]) == number and len(item["srs"]) == len(rows)
+            assert np.array_equal(item["xy"], rows[["x", "y"]]) and np.array_equal(item["pixel_xy"], rows[["x0", "y0"]])
+            assert np.array_equal(item["scores"], rows[[f"score_{name}" for name in events.features]])
+            for key, column in (("srs", "srs"), ("trs", "trs"), ("changed", "t_count")):
+                assert np.array_equal(item[key], rows[column])
+            assert [fv.ACTIONS[code] for code in item["action"]] == list(rows["action"])
+            assert ("displacement" in item) == ("dx" in table)
+            if "dx" in table:
+                assert np.array_equal(item["displacement"], rows[["dx", "dy"]])
+        assert np.array_equal(events[-1]["xy"], events[len(events) - 1]["xy"])
+        with pytest.raises(IndexError, match="frame 9"):
+            events[max(9, len(events))]
+
+
+def test_region_events_are_read_by_workers_and_in_groups(clip_folder, tmp_path):
+    folder = clip_folder("clip", "--frames", "8")
+    plain = RegionEvents(folder)
+    # The same rows in small groups, so that frames lie in several.
+    table = pq.read_table(folder / "events.parquet")
+    small = tmp_path / "small"
+    shutil.copytree(folder, small)
+    pq.write_table(table, small / "events.parquet", row_group_size=783)
+    loader = torch.utils.data.DataLoader(RegionEvents(small), batch_size=3, collate_fn=RegionEvents.collate, num_workers=2)
+    batches = list(loader)
+    assert [batch["frame"].tolist() for batch in batches] == [[0, 1, 2], [3, 4, 5], [6, 7]]
+    for start, batch in zip((0, 3, 6), batches, strict=True):
+        for place, number in enumerate(batch["frame"].tolist()):
+            of_item = batch["batch"] == place
+            assert torch.equal(batch["scores"][of_item], plain[start + place]["scores"])
+            assert int(batch["t_us"][place]) == int(plain[number]["t_us"])
+
+
+def test_frames_without_events_are_empty(clip_folder):
+    folder = clip_folder("still", "--frames", "4", "--only", "active", "--set", "temporal.level=254", "--set", "temporal.min_count=64")
+    events = RegionEvents(folder)
+    counts = [len(item["srs"]) for item in (events[number] for number in range(4))]
+    assert counts[0] > 0 and counts[1:] == [0, 0, 0]
+    assert events[2]["xy"].shape == (0, 2) and int(events[2]["t_us"]) == 66_667
+    none = RegionEvents(clip_folder("none", "--frames", "2", "--only", "active", "--set", "spatial.0.min_score=64"))
+    assert [len(none[number]["srs"]) for number in range(2)] == [0, 0]
+
+
+def test_a_folder_without_a_table_is_refused(clip_folder, tmp_path):
+    with pytest.raises(FileNotFoundError, match="--events parquet writes it"):
+        RegionEvents(tmp_path)
