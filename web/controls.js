@@ -8,21 +8,49 @@ import { heldValue, replacedKey } from "./zones.js";
 
 /** Keys by group, with their names on the page. Keys of features follow from the features. */
 const GROUPS = [
-  ["Regions", [["region.size", "Side N"], ["region.neighborhood", "Windows"], ["denoise.filter", "Filter"], ["frame.pixel_bits", "Bits per pixel"]]],
-  ["Relevant in space: SRS", "features"],
-  ["Changed in time: TRS", [["temporal.level", "Level"], ["temporal.min_count", "Least count"], ["temporal.reference", "Reference"]]],
+  ["Regions", [["region.neighborhood", "Windows"], ["denoise.filter", "Filter"], ["frame.pixel_bits", "Bits per pixel"]]],
+  ["Relevant", "features"],
+  ["Changed", [["temporal.min_count", "Least count"], ["temporal.reference", "Reference"]]],
   ["What the receiver sees", [["render.irrelevant", "Irrelevant"], ["periphery.blocks", "Means a side"], ["periphery.level", "Level of means"],
     ["render.payload", "Payload"]]],
   ["Zones", "zones"],
 ];
+/** The two keys beside the pictures. */
+const KEY_ROWS = [["region.size", "Side of a region"], ["temporal.level", "Least change"]];
+/** A line of help for each key, without the name of a feature. */
+const HELP = new Map(Object.entries({
+  "region.size": "in pixels; a region is sent as a whole",
+  "region.neighborhood": "isolated: windows end at the edge of a region; shared: they reach into its neighbours",
+  "denoise.filter": "is applied before anything is decided",
+  "frame.pixel_bits": "depth of a pixel; thresholds follow it",
+  "temporal.level": "grey levels by which a pixel must differ to count as changed",
+  "temporal.min_count": "changed pixels from which on a region has changed (TRS)",
+  "temporal.reference": "a region is compared with the last frame, or with what the receiver has",
+  "render.irrelevant": "what the receiver shows where nothing is relevant: black, the last picture, or averages",
+  "periphery.blocks": "averages per side of a region that is not relevant",
+  "periphery.level": "an average is sent again when it differs by more than this",
+  "render.payload": "pixels are sent after the filter, or raw",
+  "decision.combine": "one feature is enough for a region to be relevant (SRS), or all are needed",
+  level: "a pixel counts above this",
+  min_score: "from this score on, the feature finds the region relevant (SRS)",
+  mean_fraction_bits: "binary places of the mean of a region",
+  radius: "the largest movement that is searched for, in pixels",
+}));
+const FEATURE_HELP = new Map(Object.entries({
+  edge: "pixels with a strong gradient", corner: "pixels that are corners", mad: "mean distance from the mean", variance: "mean squared distance from the mean",
+  range: "brightest minus darkest pixel", surface: "how little the region resembles itself, displaced", segment: "two parts of different brightness",
+  flow: "the content has moved",
+}));
 const OF_FEATURE = [["level", "Level"], ["min_score", "Least score"], ["mean_fraction_bits", "Mean bits"], ["radius", "Radius"]];
 
 export class Controls {
-  #place; #tables; #actions; #rows = new Map(); #shape = "";
+  #place; #keyPlace; #presetPlace; #tables; #actions; #rows = new Map(); #shape = "";
 
   /** `change(key, value)` returns nothing, or the message of a refusal, and so does `toggle(feature, on)`. */
-  constructor(place, tables, { presets, change, toggle, preset }) {
-    this.#place = place;
+  constructor({ all, key, preset: presetPlace }, tables, { presets, change, toggle, preset }) {
+    this.#place = all;
+    this.#keyPlace = key;
+    this.#presetPlace = presetPlace;
     this.#tables = tables;
     this.#actions = { change, toggle, preset };
     this.presets = presets;
@@ -83,8 +111,15 @@ export class Controls {
       });
       return make("fieldset", {}, make("legend", { textContent: title }), ...elements);
     });
-    this.#place.replaceChildren(this.#rows.get("preset").element, ...groups);
-    if (focused) this.#place.querySelector(`[data-key="${focused}"]`)?.querySelector("input, select")?.focus();
+    const keyRows = KEY_ROWS.map(([key, name]) => {
+      const row = this.#key(key, name, facts);
+      this.#rows.set(key, row);
+      return row.element;
+    });
+    this.#presetPlace.replaceChildren(this.#rows.get("preset").element);
+    this.#keyPlace.replaceChildren(...keyRows);
+    this.#place.replaceChildren(...groups);
+    if (focused) document.querySelector(`[data-key="${focused}"]`)?.querySelector("input, select")?.focus();
   }
 
   #preset() {
@@ -106,6 +141,7 @@ export class Controls {
     const element = make("div", { className: "feature" }, make("label", {}, box, name));
     element.dataset.key = `feature.${name}`;
     const row = refusable(element);
+    addHelp(row, FEATURE_HELP.get(name));
     box.onchange = () => {
       const message = this.#actions.toggle(name, box.checked);
       if (message) box.checked = !box.checked;
@@ -123,12 +159,21 @@ export class Controls {
     const row = rangeOf(facts).kind === "choice" ? choice(key, name, title) : number(key, name, title);
     if (feature) row.element.classList.add("indented");
     row.element.title = this.#help(key, feature);
+    addHelp(row, HELP.get(replacedKey(facts.config, key)) ?? HELP.get(key.split(".").at(-1)));
     row.onchange(value => row.showMessage(this.#actions.change(key, value)));
     return { ...row, show: own => {
       row.showMessage();
       row.set(heldValue(own.config, key), rangeOf(own));
     } };
   }
+}
+
+/** Adds a visible line of help to a row, which its fields refer to. */
+function addHelp({ element }, text) {
+  if (!text) return;
+  const id = `help-${element.dataset.key.replaceAll(".", "-")}`;
+  element.append(make("p", { className: "help", id, textContent: text }));
+  for (const field of element.querySelectorAll("input, select")) field.setAttribute("aria-describedby", id);
 }
 
 /** Shows a message below an element. */

@@ -40,8 +40,36 @@ class Chart {
   }
 }
 
+/** The time in ms over which the large figure is averaged. */
+const HEADLINE_MS = 1000;
+
+/** The share of the bytes of raw video over the last second, as a large figure. The first frame is left out, because all of it is new. */
+export class Headline {
+  #id; #entries = []; #isFirst = true;
+  constructor(id) { this.#id = id; }
+
+  reset() {
+    this.#entries = [];
+    this.#isFirst = true;
+  }
+
+  add(count, now) {
+    if (this.#isFirst) {
+      this.#isFirst = false;
+      return;
+    }
+    this.#entries.push({ count, now });
+    this.#entries = this.#entries.filter(entry => entry.now > now - HEADLINE_MS);
+  }
+
+  show(rawBytes) {
+    const { length } = this.#entries, sum = this.#entries.reduce((total, { count }) => total + count, 0);
+    setText(this.#id, length ? percent(sum / length / rawBytes) : "–");
+  }
+}
+
 export class Figures {
-  #history = []; #sums; #paintTime = 0; #isChanged = false; #facts = null;
+  #history = []; #sums; #paintTime = 0; #isChanged = false; #facts = null; #headline = new Headline("headline");
   #regions = new Chart(byId("regions-chart"), ["k6", "k5", "k4"], [[1, "100 %"], [0.5, "50 %"]]);
   #bytes = new Chart(byId("bytes-chart"), ["k1", "k4"],
     [[height(10), "1000 %"], [height(1), "100 %", "rest"], [height(0.1), "10 %"], [height(0.01), "1 %"], [height(0.001), "0.1 %"]]);
@@ -52,6 +80,7 @@ export class Figures {
   reset(facts) {
     this.#facts = facts;
     this.#history = [];
+    this.#headline.reset();
     this.#sums = { frames: 0, us: 0, camera: 0, pixels: 0 };
     this.#isChanged = false;
   }
@@ -59,6 +88,7 @@ export class Figures {
   /** Adds a frame: the results of the engine, the events of a pixel camera, its time, and its computing time in ms. */
   add(sent, events, time_us, cost, now) {
     this.#isChanged = true;
+    this.#headline.add(sent.bits / 8, now);
     const last = this.#history.at(-1), sums = this.#sums;
     const elapsed = last && time_us > last.time_us ? Math.min(time_us - last.time_us, 1e6) : 1e6 / 30;
     sums.frames++;
@@ -83,6 +113,7 @@ export class Figures {
     setText("cost", (recent.reduce((sum, entry) => sum + entry.cost, 0) / recent.length).toFixed(1));
     setText("active", percent(newest.active / regionCount));
     setText("share", percent(newest.bits / 8 / rawBytes));
+    this.#headline.show(rawBytes);
     const share = name => history.map(entry => entry[name] / regionCount);
     this.#regions.show([share("trs"), share("srs"), share("active")]);
     this.#bytes.show([history.map(entry => height(entry.events * PIXEL_EVENT_BYTES / rawBytes)), history.map(entry => height(entry.bits / 8 / rawBytes))]);

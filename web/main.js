@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // The page: one source, one camera, and the display of both.
 
+import { Capture } from "./capture.js";
 import { Engine } from "./engine.js";
 import { engineOfText } from "./engine_text.js";
 import { Controls } from "./controls.js";
@@ -12,6 +13,7 @@ import { isMapTooFine, linkToShare, readLink, writeLink } from "./link.js";
 import { withFittingMeans } from "./means.js";
 import { NetworkView } from "./network.js";
 import { withOrganization } from "./organization.js";
+import { PinnedCamera } from "./pinned.js";
 import { PixelCamera } from "./pixel_camera.js";
 import { showReasons } from "./reasons.js";
 import { Recording } from "./recording.js";
@@ -38,7 +40,7 @@ let replacedHardware = null;
 let speed = 1, isStepRequested = false, startTime = null, lastExplanation = { at: 0, cost: 0 };
 /** The last two frames, which are shown again to a changed camera while the source is stopped. */
 let last = [];
-let screens, figures, controls, network, zones;
+let screens, figures, controls, network, zones, pinned, capture;
 const recording = new Recording(() => camera);
 
 // The last error, until the next try.
@@ -72,6 +74,7 @@ function configure(wantedConfig) {
   means = config.periphery?.blocks ?? means;
   begin();
   screens.resize(camera.facts);
+  pinned.resize(makeCamera, camera.facts);
   zones.show(camera.facts);
   controls.show(camera.facts, settings.preset);
   showHardware(byId("area"), hardwareTable, camera.facts, tables.features);
@@ -79,6 +82,9 @@ function configure(wantedConfig) {
   storeLink();
   if (paused) repeatFrames();
 }
+
+/** Makes a camera beside the one of the page. */
+const makeCamera = (toml, width, height) => engine.configure(toml, width, height);
 
 function describe() {
   const { width, height, columns, rows, side, fingerprint } = camera.facts;
@@ -94,6 +100,7 @@ function begin() {
 
 function forget() {
   camera.reset();
+  pinned.reset();
   pixels = new PixelCamera(camera.facts.bits);
   startTime = null;
 }
@@ -108,8 +115,15 @@ function messageOf(change) {
   }
 }
 
+/** Returns the message of a refused wish of the user, or nothing. After a success, the message of an earlier try is gone. */
+function messageOfWish(change) {
+  const message = messageOf(change);
+  if (!message) notice();
+  return message;
+}
+
 function changeKey(key, value) {
-  return messageOf(() => {
+  return messageOfWish(() => {
     const oldMeans = means;
     configure(withChange(key, value));
     if (key === "region.size") means = oldMeans;
@@ -134,7 +148,7 @@ function toggleFeature(feature, on) {
     added.mean_fraction_bits = others.find(one => (one.mean_fraction_bits ?? null) !== null)?.mean_fraction_bits;
   const spatial = on ? [...others, added].sort((a, b) => order.indexOf(a.feature) - order.indexOf(b.feature)) : others;
   if (!spatial.length) return `a camera needs a feature; turn another on first, then ${feature} off`;
-  return messageOf(() => {
+  return messageOfWish(() => {
     const { hardware } = config, wish = withOrganization(withoutOtherFeatures({ ...config, spatial }), tables.features, replacedHardware);
     configure(wish);
     if (wish.hardware === replacedHardware) replacedHardware = null;
@@ -149,7 +163,7 @@ function presetConfig(name) {
 }
 
 function choosePreset(name) {
-  return messageOf(() => {
+  return messageOfWish(() => {
     const previous = settings.preset;
     settings.preset = name;
     try {
@@ -213,6 +227,11 @@ function sourceOfFiles(files) {
   return new Clip(file);
 }
 
+/** Shows what the source says, if it is no error. */
+function showSourceStatus(text = "") {
+  setText("source-status", text);
+}
+
 let tickets = 0;
 /** Changes the source. If it does not open, the old one stays. */
 async function choose(name) {
@@ -238,7 +257,10 @@ async function choose(name) {
   }
   source?.close();
   source = newSource;
-  source.onend = text => { if (source === newSource) notice(text); };
+  source.onend = (text, isError = true) => { if (source === newSource) (isError ? notice : showSourceStatus)(text); };
+  showSourceStatus();
+  byId("loop-label").hidden = source.loops === undefined;
+  if (source.loops !== undefined) source.loops = byId("loop").checked;
   settings.source = name;
   last = [];
   byId("source").value = name;
@@ -274,8 +296,8 @@ function openDropped(list) {
 // --- Frames
 
 function step(frame) {
-  const start = performance.now();
-  if (frame.fresh && figures.sums.frames) {
+  const start = performance.now(), isRepeated = Boolean(frame.fresh && figures.sums.frames);
+  if (isRepeated) {
     recording.end();
     forget();
   }
@@ -286,9 +308,28 @@ function step(frame) {
   const events = pixels.step(camera.input);
   screens.paint(camera);
   const now = performance.now();
-  figures.add(sent, events, frame.time_us, now - start, now);
+  // In the first frame of a further pass everything is new, which is no property of the camera.
+  if (!isRepeated) figures.add(sent, events, frame.time_us, now - start, now);
+  pinned.step(frame, time, isRepeated, now);
+  capture.frameShown();
   network.frameShown(sent.number);
+  chooseRegion();
   explain(now);
+}
+
+/** Chooses a region before the user has chosen one: the one that was sent nearest to the centre, or the one at the centre. */
+function chooseRegion() {
+  if (screens.chosen || (!paused && figures.sums.frames < 3)) return;
+  const { columns, rows } = camera.facts, { regions } = camera, centre = [columns >> 1, rows >> 1];
+  const distance = region => Math.hypot(region % columns - centre[0], Math.floor(region / columns) - centre[1]);
+  const isSent = region => !paused && regions[region] >> 2 === 0;
+  let best = centre[1] * columns + centre[0], bestDistance = Infinity;
+  for (let region = 0; region < regions.length; region++) {
+    if (!isSent(region) || distance(region) >= bestDistance) continue;
+    best = region;
+    bestDistance = distance(region);
+  }
+  screens.choose(best % columns, Math.floor(best / columns));
 }
 
 /** Shows the last frames again to a changed camera. */
@@ -322,6 +363,7 @@ async function run() {
 function pause(on) {
   paused = on;
   byId("pause").setAttribute("aria-pressed", on);
+  setText("source-status", "");
   source?.run(!on);
 }
 
@@ -332,6 +374,7 @@ function stepOnce() {
 
 async function reset() {
   notice();
+  showSourceStatus();
   last = [];
   const wasRecording = recording.on;
   recording.end();
@@ -403,7 +446,7 @@ async function fromLink() {
 }
 
 function showSizes() {
-  const options = [["", "as the source"], ...[...new Set([...SIZES, settings.size].filter(Boolean))].map(size => [size, size])];
+  const options = [["", "original"], ...[...new Set([...SIZES, settings.size].filter(Boolean))].map(size => [size, size])];
   byId("size").replaceChildren(...options.map(([value, textContent]) => make("option", { value, textContent })));
   byId("size").value = settings.size;
 }
@@ -439,10 +482,30 @@ function addListeners() {
     const text = linkToShare(location, link());
     copy(text, text.startsWith("#") ? "the part of the link behind its secret address" : "the link");
   };
+  const compare = on => {
+    byId("compare").setAttribute("aria-pressed", on);
+    screens.compare(on, last.length ? camera : null);
+  };
+  const button = byId("compare");
+  button.onpointerdown = event => { button.setPointerCapture(event.pointerId); compare(true); };
+  button.onpointerup = button.onpointercancel = button.onblur = () => compare(false);
+  button.onkeydown = event => { if (event.key === " " || event.key === "Enter") { event.preventDefault(); compare(true); } };
+  button.onkeyup = () => compare(false);
+  addEventListener("keyup", event => { if (event.key === "c") compare(false); });
+  byId("outlines").onchange = event => screens.showOutlines(event.target.checked, last.length ? camera : null);
+  byId("pin").onclick = () => notice(messageOf(() => {
+    pinned.pin(camera.facts.toml, makeCamera, camera.facts);
+    begin();
+    if (paused) repeatFrames();
+  }));
+  byId("unpin").onclick = () => pinned.release();
+  byId("save-picture").onclick = () => capture.savePicture();
+  byId("film").onclick = () => capture.film();
+  byId("loop").onchange = event => { if (source?.loops !== undefined) source.loops = event.target.checked; };
   byId("record").onclick = () => { if (recording.on) recording.end(); else recording.begin(); };
   byId("download").onclick = () => recording.download();
   addEventListener("hashchange", () => { if (location.hash !== link()) fromLink(); });
-  const actions = new Map([[" ", () => pause(!paused)], ["s", stepOnce], ["r", reset]]);
+  const actions = new Map([[" ", () => pause(!paused)], ["s", stepOnce], ["r", reset], ["c", () => compare(true)]]);
   document.onkeydown = event => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches("input, select, textarea")) return;
     // The space bar belongs to the button with the focus.
@@ -468,6 +531,7 @@ function addListeners() {
 }
 
 async function start() {
+  byId("late").remove();
   engine = await Engine.load(await engineOfText(byId("wasm").textContent));
   byId("wasm").remove();
   tables = engine.describe();
@@ -482,10 +546,13 @@ async function start() {
   zones = new ZonePainter(byId("zones"), { apply: applyZones, end: endStroke, clear: clearZones });
   screens = new Screens(() => explain(performance.now(), true), zones);
   figures = new Figures();
+  pinned = new PinnedCamera();
+  capture = new Capture(() => screens.layers);
   network = new NetworkView(engine.module, { camera: () => camera, source: inputsOfCommand, onchange: storeLink });
-  controls = new Controls(byId("controls"), tables, { presets, change: changeKey, toggle: toggleFeature, preset: choosePreset });
+  controls = new Controls({ all: byId("controls"), key: byId("key-controls"), preset: byId("preset") }, tables, { presets, change: changeKey, toggle: toggleFeature, preset: choosePreset });
   addListeners();
   await fromLink();
+  if (paused) showSourceStatus("paused, because this system asks for less motion; Pause lets it run");
   // For tests and for users of the console.
   window.foveate = { engine, get camera() { return camera; }, get config() { return config; }, get sums() { return figures.sums; },
     get source() { return source; }, network };

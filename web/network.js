@@ -4,11 +4,13 @@
 
 import { Boxes } from "./boxes.js";
 import { className } from "./class_names.js";
-import { asPath, byId, copy, setText, withoutBackticks } from "./elements.js";
+import { asPath, byId, bytes, copy, setText, withoutBackticks } from "./elements.js";
 import { NetworkControls } from "./network_controls.js";
 import { NetworkFigures } from "./network_figures.js";
 import { NetworkThread } from "./network_thread.js";
 
+/** The largest file that the engine takes. */
+const MAX_FILE_BYTES = 2 * 2 ** 30;
 /** Settings without choices of mean, scale and detections, which are then guessed. */
 const GUESSED = { framing: "letterbox", mean: null, scale: null, detect: null };
 
@@ -56,12 +58,14 @@ export class NetworkView {
     const ticket = ++this.#ticket;
     this.#showRefusal();
     setText("network-status", `reading ${file.name}`);
-    const thread = this.#thread = new NetworkThread(byId("network-worker").textContent);
     byId("close-network").hidden = false;
     byId("network-hint").hidden = true;
+    this.#showCancel(true);
     try {
-      const bytes = await file.arrayBuffer();
-      await thread.ask("begin", { module: this.#module, file: bytes }, [bytes]);
+      if (file.size > MAX_FILE_BYTES) throw new Error(`${file.name} has ${bytes(file.size)}, and a network on this page has at most 2 GiB; \`foveate infer\` runs in a terminal`);
+      const thread = this.#thread = new NetworkThread(byId("network-worker").textContent);
+      const content = await file.arrayBuffer();
+      await thread.ask("begin", { module: this.#module, file: content }, [content]);
     } catch (error) {
       if (ticket === this.#ticket) this.#fail(error.message);
       return;
@@ -86,6 +90,7 @@ export class NetworkView {
   /** Makes the network of the file for the current camera. */
   async #openNetwork() {
     const { width, height, bits } = this.#camera().facts, ticket = ++this.#ticket, thread = this.#thread;
+    this.#showCancel(true);
     this.#openedSize = `${width}x${height}x${bits}`;
     this.#facts = null;
     this.#clearResults();
@@ -98,6 +103,7 @@ export class NetworkView {
       if (ticket === this.#ticket) this.#fail(error.message);
     }
     if (ticket !== this.#ticket) return;
+    this.#showCancel(false);
     this.#show();
     this.#onchange();
     this.#runNetwork();
@@ -200,7 +206,13 @@ export class NetworkView {
     setText("network-command", `foveate infer ${word(asPath(this.#file))} ${this.#source().map(word).join(" ")} -o out --config camera.toml ${options}`);
   }
 
+  /** Names the button that ends the network: it cancels one that is not open yet. */
+  #showCancel(isOpening) {
+    setText("close-network", isOpening ? "Cancel" : "Close it");
+  }
+
   #fail(message) {
+    this.#showCancel(false);
     setText("network-status", "");
     this.#showRefusal(message);
   }

@@ -3,13 +3,19 @@
 
 const FAULT = "the network stopped its engine; most likely it takes more memory than a page has, 4 GiB. Take a smaller network, or a smaller size";
 
+const BLOCKED = "the browser starts no thread for the network; allow workers for this page, or open it by `foveate live`";
+
 export class NetworkThread {
   #worker; #link; #pending = new Map(); #count = 0;
 
   /** `text` is the script of the thread. */
   constructor(text) {
     this.#link = URL.createObjectURL(new Blob([text], { type: "text/javascript" }));
-    this.#worker = new Worker(this.#link);
+    try {
+      this.#worker = new Worker(this.#link);
+    } catch (error) {
+      throw new Error(`${BLOCKED} (${error.message})`);
+    }
     this.#worker.onmessage = ({ data: { id, refused, fault, ...answer } }) => {
       const { resolve, reject } = this.#pending.get(id);
       this.#pending.delete(id);
@@ -17,7 +23,7 @@ export class NetworkThread {
     };
     this.#worker.onerror = event => {
       event.preventDefault();
-      for (const { reject } of this.#pending.values()) reject(new Error(`the network's thread does not start (${event.message || "refused by the browser"})`));
+      for (const { reject } of this.#pending.values()) reject(new Error(`${BLOCKED} (${event.message || "no reason is given"})`));
       this.#pending.clear();
     };
   }

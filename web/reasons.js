@@ -10,8 +10,8 @@ const SIDE = 128;
 export function showReasons(place, { json, text }) {
   const open = place.querySelector("details")?.open ?? false;
   const { region, rule, srs, trs } = json;
-  const words = [...json.spatial.map(feature), `SRS is ${Number(srs)}; ${json.combine === "any" ? "one vote is enough" : "all votes are needed"}.`,
-    change(json), `TRS is ${Number(trs)}.`, ...summary(json)];
+  const words = [...json.spatial.map(feature), `${srs ? "Relevant" : "Not relevant"} (SRS is ${Number(srs)}): ${json.combine === "any" ? "one vote is enough" : "all votes are needed"}.`,
+    change(json), `${trs ? "Changed" : "Unchanged"} (TRS is ${Number(trs)}).`, ...summary(json)];
   const inside = `pixels ${region.x0} to ${region.x0 + region.size - 1} by ${region.y0} to ${region.y0 + region.size - 1}`;
   place.replaceChildren(
     make("p", {}, make("strong", { textContent: `Region ${region.x},${region.y}` }), ` of ${region.columns} x ${region.rows}, ${inside}, frame ${json.frame}.`),

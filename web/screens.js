@@ -3,17 +3,25 @@
 
 import { CLASSES, classesOf } from "./zones.js";
 
-/** What a region shows, by its byte (bit 0 SRS, bit 1 TRS, above them what became of it: 0 sent, 1 held, 2 black, 3 means), the
- *  colour that stands for it, and how much of the picture that covers. */
+/** The kinds of regions by their byte (bit 0 SRS, bit 1 TRS, above them the result: 0 sent, 1 held, 2 black, 3 means), with the colour of
+ *  their outlines. The first kind that applies holds. */
 const KINDS = [
-  ["active, sent", "--k4", byte => byte >> 2 === 0, 150],
-  ["means sent", "--k2", byte => byte >> 2 === 3, 120],
-  ["SRS only", "--k5", byte => (byte & 3) === 1, 75],
-  ["TRS only", "--k6", byte => (byte & 3) === 2, 50],
+  ["sent", "--k4", byte => byte >> 2 === 0],
+  ["average sent", "--k2", byte => byte >> 2 === 3],
+  ["relevant, unchanged", "--k5", byte => (byte & 3) === 1],
+  ["changed, irrelevant", "--k6", byte => (byte & 3) === 2],
 ];
+/** The keys of the legend without outlines, with the class of their mark. */
+const SHADES = [["bright: sent", "bright"], ["average sent", "k2"], ["dark: not sent", "dim"]];
+/** The opacities of the colour of an average that is sent, and of the shade over regions that are not sent. */
+const AVERAGE_ALPHA = 120, DARK_ALPHA = 185;
+/** The width of an outline as a share of the side of a region. */
+const OUTLINE_WIDTH = 0.12;
 const PARTS = ["input", "decisions", "receiver"];
 /** The pixels of the picture of arrows per side of a region, at least. */
 const ARROW_CELL = 24;
+/** The pixels of the picture of outlines per side of a region, at least. */
+const OUTLINE_CELL = 16;
 /** The opacity of arrows of regions for which `flow` does not vote. */
 const FAINT = 0.3;
 const ARROWS = new Map([["ArrowLeft", [-1, 0]], ["ArrowRight", [1, 0]], ["ArrowUp", [0, -1]], ["ArrowDown", [0, 1]]]);
@@ -41,7 +49,7 @@ function addArrow(path, x, y, dx, dy, width) {
 }
 
 export class Screens {
-  #facts = null; #chosen = null; #views = {}; #tints; #classTints; #overlay; #zones; #arrows; #choose; #painter; #painted = null;
+  #facts = null; #chosen = null; #views = {}; #tints; #classTints; #overlay; #zones; #arrows; #outlines; #outlineKinds; #hasOutlines = false; #isCompared = false; #choose; #painter; #painted = null;
 
   /** `choose` is called with a region when the user chooses one. A `painter` whose brush is on gets the strokes. */
   constructor(choose, painter) {
@@ -62,16 +70,21 @@ export class Screens {
     this.#zones = document.createElement("canvas").getContext("2d");
     this.#arrows = document.createElement("canvas").getContext("2d");
     this.#arrows.canvas.className = "arrows";
-    this.#views.decisions.canvas.after(this.#arrows.canvas);
+    this.#outlines = document.createElement("canvas").getContext("2d");
+    this.#outlines.canvas.className = "arrows outlines";
+    this.#views.decisions.canvas.after(this.#outlines.canvas, this.#arrows.canvas);
     this.recolour();
     const legend = document.getElementById("legend");
-    for (const [name, colour] of KINDS) {
+    const addKey = (className, name, colour) => {
       const mark = document.createElement("i"), key = document.createElement("span");
-      mark.className = colour.slice(2);
-      key.className = "key";
+      mark.className = colour;
+      key.className = `key ${className}`;
       key.append(mark, name);
       legend.append(key);
-    }
+    };
+    for (const [name, colour] of SHADES) addKey("shade", name, colour);
+    for (const [name, colour] of KINDS) addKey("outline", name, colour.slice(2));
+    this.showOutlines(false);
     const key = document.createElement("span");
     Object.assign(key, { className: "key", id: "moved-key", hidden: true, textContent: "\u2192 moved" });
     legend.append(key);
@@ -79,10 +92,9 @@ export class Screens {
 
   /** Reads the colours of the style again. */
   recolour() {
-    this.#tints = Uint32Array.from({ length: 16 }, (_, byte) => {
-      const kind = KINDS.find(([, , applies]) => applies(byte));
-      return kind ? colourWord(kind[1], kind[3]) : 0;
-    });
+    const average = colourWord("--k2", AVERAGE_ALPHA), dark = (DARK_ALPHA << 24) >>> 0;
+    this.#tints = Uint32Array.from({ length: 16 }, (_, byte) => [0, dark, dark, average][byte >> 2]);
+    this.#outlineKinds = Int8Array.from({ length: 16 }, (_, byte) => KINDS.findIndex(([, , applies]) => applies(byte)));
     this.#classTints = Uint32Array.from(CLASSES, ({ colour, alpha }) => colour ? colourWord(colour, alpha) : 0);
     if (this.#facts) this.showZones(this.#facts);
   }
@@ -110,6 +122,8 @@ export class Screens {
     const radius = radiusOf(facts), scale = Math.max(1, Math.ceil(ARROW_CELL / facts.side));
     Object.assign(this.#arrows.canvas, { hidden: !radius, width: radius ? width * scale : 1, height: radius ? height * scale : 1 });
     document.getElementById("moved-key").hidden = !radius;
+    const outlineScale = Math.max(1, Math.ceil(OUTLINE_CELL / facts.side));
+    Object.assign(this.#outlines.canvas, { width: width * outlineScale, height: height * outlineScale });
     Object.assign(this.#overlay.canvas, { width: columns, height: rows });
     this.#overlay.data = new ImageData(columns, rows);
     this.#overlay.words = new Uint32Array(this.#overlay.data.data.buffer);
@@ -122,7 +136,7 @@ export class Screens {
   paint(camera) {
     const { input, decisions, receiver } = this.#views, { columns, rows, side } = this.#facts;
     this.#grey(input, camera.input);
-    this.#grey(receiver, camera.screen);
+    this.#grey(receiver, this.#isCompared ? camera.input : camera.screen);
     const { words, data } = this.#overlay, regions = camera.regions;
     for (let region = 0; region < words.length; region++) words[region] = this.#tints[regions[region] & 15];
     this.#overlay.putImageData(data, 0, 0);
@@ -133,6 +147,52 @@ export class Screens {
       context.drawImage(canvas, 0, 0, columns * side, rows * side);
     }
     this.#paintArrows(camera.displacements);
+    if (this.#hasOutlines) this.#paintOutlines(regions);
+  }
+
+  /** Shows what the camera sees in the place of what the receiver sees, or stops to do so. */
+  compare(on, camera) {
+    this.#isCompared = on;
+    document.getElementById("receiver-title").textContent = on ? "The camera sees" : "The receiver sees";
+    if (camera) this.paint(camera);
+  }
+
+  /** Turns the outlines of the kinds of regions on or off. */
+  showOutlines(on, camera) {
+    this.#hasOutlines = on;
+    this.#outlines.canvas.hidden = !on;
+    for (const key of document.querySelectorAll("#legend .outline")) key.hidden = !on;
+    for (const key of document.querySelectorAll("#legend .shade")) key.hidden = on;
+    if (camera) this.paint(camera);
+  }
+
+  /** Returns the canvases of the three pictures, with the layers above each. */
+  get layers() {
+    const { input, decisions, receiver } = this.#views;
+    return [[input.canvas], [decisions.canvas, this.#outlines.canvas, this.#arrows.canvas].filter(({ hidden }) => !hidden), [receiver.canvas]];
+  }
+
+  /** Draws a line between regions of different kinds, on the side of each that has a colour. */
+  #paintOutlines(regions) {
+    const context = this.#outlines, { columns, rows, side, width } = this.#facts, cell = side * context.canvas.width / width;
+    context.clearRect(0, 0, context.canvas.width, context.canvas.height);
+    const paths = KINDS.map(() => new Path2D()), thickness = Math.max(1, OUTLINE_WIDTH * cell);
+    const kindAt = (x, y) => x < 0 || y < 0 || x >= columns || y >= rows ? -1 : this.#outlineKinds[regions[y * columns + x] & 15];
+    for (let y = 0; y < rows; y++) {
+      for (let x = 0; x < columns; x++) {
+        const kind = kindAt(x, y);
+        if (kind < 0) continue;
+        const path = paths[kind], [left, top] = [x * cell, y * cell];
+        if (kindAt(x, y - 1) !== kind) path.rect(left, top, cell, thickness);
+        if (kindAt(x, y + 1) !== kind) path.rect(left, top + cell - thickness, cell, thickness);
+        if (kindAt(x - 1, y) !== kind) path.rect(left, top, thickness, cell);
+        if (kindAt(x + 1, y) !== kind) path.rect(left + cell - thickness, top, thickness, cell);
+      }
+    }
+    for (const [kind, path] of paths.entries()) {
+      context.fillStyle = getComputedStyle(document.documentElement).getPropertyValue(KINDS[kind][1]).trim();
+      context.fill(path);
+    }
   }
 
   /** Draws an arrow from the centre of each region whose content has moved, faint where `flow` does not vote. Its length is in proportion to

@@ -8,7 +8,8 @@
 //   await step(width, height)        the next frame, also while the page is stopped
 //   run(on), speed(factor)           of sources with a clock of their own
 //   await restart(), close()
-//   onend(text)                      set by the page; called when no more frames will come
+//   onend(text, isError)             set by the page; called when no more frames will come
+//   loops                            undefined, or whether a clip of `foveate live` begins again after its end
 
 /** Frames per second of sources without times, as in `foveate simulate`. */
 const RATE = 30;
@@ -256,13 +257,19 @@ export class Webcam extends VideoSource {
   }
 }
 
+/** The text of the server at the end of a clip without a fault. */
+const NORMAL_END = "the clip has ended";
+
 /** Frames that `foveate live` decodes on this computer; `path` is where it serves them. A clip has its own times; what a camera
  * sends is shown when it comes. */
 export class Computer {
   natural = null;
   slow = true;
   onend = () => {};
+  loops = false;
   #path; #after = -1; #ended = false; #waiting = null; #first = true; #run = 0;
+  /** The server gives frames only to the page that has opened its input last. */
+  #viewer = Math.random().toString(36).slice(2);
   #factor = 1; #shown = { now: 0, time_us: 0 };
   constructor(path) { this.#path = path; }
   async open() {
@@ -304,6 +311,7 @@ export class Computer {
     if (answer && !answer.ok) return this.onend(await answer.text());
     this.#run++;
     this.#after = -1;
+    this.#viewer = Math.random().toString(36).slice(2);
     this.#ended = false;
     this.#waiting = null;
     this.#first = true;
@@ -312,7 +320,7 @@ export class Computer {
     let bytes;
     const run = this.#run;
     try {
-      const answer = await fetch(`${this.#path}?after=${this.#after}`);
+      const answer = await fetch(`${this.#path}?after=${this.#after}&viewer=${this.#viewer}`);
       if (!answer.ok) throw new Error(await answer.text());
       bytes = await answer.arrayBuffer();
     } catch {
@@ -324,13 +332,23 @@ export class Computer {
     const head = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, length)));
     const grey = new Uint8Array(bytes, 4 + length);
     if (head.status === "failed") return this.#end(head.text);
-    if (!grey.length) return head.status === "ended" ? this.#end(`${head.text || "the input has ended"}; Reset begins again`) : null;
+    if (head.status === "taken") return this.#end("another page shows this input now; Reset brings it back to this one");
+    if (!grey.length && head.status === "ended") return this.#endOfClip(head);
+    if (!grey.length) return null;
     this.#after = head.number;
     return { head, grey };
   }
-  #end(text) {
+  /** Begins again, or says that the clip has ended. A clip that is damaged says so in its text. */
+  #endOfClip({ text, live }) {
+    if (this.loops && !live && text === NORMAL_END) {
+      this.restart();
+      return null;
+    }
+    return this.#end(`${text || NORMAL_END}; Reset begins again`, Boolean(text) && text !== NORMAL_END);
+  }
+  #end(text, isError = true) {
     this.#ended = true;
-    this.onend(text);
+    this.onend(text, isError);
     return null;
   }
   close() { this.#ended = true; }

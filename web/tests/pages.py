@@ -44,7 +44,7 @@ def visit(tmp_path):
     """Opens an address in a browser; what a page throws or its policy refuses fails the test."""
     contexts, wrong = [], []
 
-    def visit(browser, address, ready="!!window.foveate", permissions=(), before="", **options):
+    def visit(browser, address, ready="!!window.foveate", permissions=(), before="", folded=False, **options):
         context = browser.new_context(**{"viewport": {"width": 1280, "height": 800}, **options})
         context.set_default_timeout(8000)
         contexts.append(context)
@@ -57,6 +57,8 @@ def visit(tmp_path):
         page.on("console", lambda told: wrong.append(told.text) if "Content Security Policy" in told.text else None)
         page.goto(address)
         until(page, ready)
+        if not folded:
+            page.evaluate("for (const one of document.querySelectorAll('#all-settings')) one.open = true")
         return page
 
     yield visit
@@ -141,7 +143,7 @@ class Frames(BaseHTTPRequestHandler):
             pixels = bytes((x * y + number * 20) % 256 for y in range(32) for x in range(48))
         else:
             time.sleep(0.1)
-            head.update(status="ended", text="the end of it")
+            head.update(status="ended", text=self.server.end)
         text = json.dumps(head).encode()
         return self.answer("application/octet-stream", struct.pack("<I", len(text)) + text + pixels)
 
@@ -151,11 +153,11 @@ class Frames(BaseHTTPRequestHandler):
 
 @pytest.fixture
 def server(visit, chromium, page_file):
-    """The page from a server with frames, and what was asked of that."""
+    """The page from a server with frames, and the server, which has a log of requests and a text for the end."""
     served = ThreadingHTTPServer(("127.0.0.1", 0), Frames)
-    served.log = []
+    served.log, served.end = [], "the clip has ended"
     served.page = page_file.read_text().replace('<html lang="en">', '<html lang="en" data-frames="frames">').encode()
     threading.Thread(target=served.serve_forever, daemon=True).start()
-    yield visit(chromium, f"http://127.0.0.1:{served.server_port}/"), served.log
+    yield visit(chromium, f"http://127.0.0.1:{served.server_port}/"), served
     served.shutdown()
     served.server_close()

@@ -50,7 +50,8 @@ def test_a_clip_is_what_simulate_makes_of_it(served):
 
 def test_a_clip_has_its_own_times_and_an_end(served):
     page, _ = served()
-    until(page, "document.getElementById('notice').textContent.includes('the clip has ended')")
+    until(page, "document.getElementById('source-status').textContent.includes('the clip has ended')")
+    assert page.locator("#notice").is_hidden()
     assert page.evaluate("foveate.sums.frames") == 12
     # Slowly, and begun again: 12 frames of 50 ms take 6 s at a tenth.
     page.locator("#speed").select_option("0.1")
@@ -58,6 +59,22 @@ def test_a_clip_has_its_own_times_and_an_end(served):
     until(page, "foveate.sums.frames === 1")
     page.wait_for_timeout(1200)
     assert 2 <= page.evaluate("foveate.sums.frames") <= 5
+
+
+def test_a_second_page_takes_the_input_and_the_first_says_so(served):
+    first, _ = served(reduced_motion="reduce")
+    until(first, "foveate.sums.frames === 1")
+    second = first.context.new_page()
+    second.goto(first.url.split("#")[0])
+    until(second, "window.foveate?.sums.frames === 1")
+    first.click("#step")
+    until(first, "document.getElementById('notice').textContent.includes('another page shows this input now')")
+    second.click("#step")
+    until(second, "foveate.sums.frames === 2")
+    first.click("#reset")
+    until(first, "foveate.sums.frames === 1")
+    assert first.locator("#notice").is_hidden()
+    second.close()
 
 
 def test_the_secret_of_the_link_leaves_the_page_by_nothing_that_it_gives(served):

@@ -536,7 +536,7 @@ def test_a_browser_that_cannot_unpack_the_engine_is_told(visit, chromium, page_f
 def test_all_goes_by_keyboard(still):
     page = still(f"#size={WIDTH}x{HEIGHT}&preset=paper")
     reached = set()
-    for _ in range(80):
+    for _ in range(100):
         page.keyboard.press("Tab")
         name = page.evaluate(
             """() => {
@@ -551,13 +551,13 @@ def test_all_goes_by_keyboard(still):
         assert name[1], f"{name[0]} has no visible focus"
         reached.add(name[0])
     keys = set(page.evaluate("[...document.querySelectorAll('[data-key]')].map(own => own.dataset.key)"))
-    buttons = {"source", "open", "size", "pause", "step", "reset", "speed", "input", "decisions", "receiver", "open-network"}
+    buttons = {"source", "open", "size", "pause", "step", "reset", "speed", "input", "decisions", "receiver", "open-network", "compare", "outlines", "pin", "save-picture", "film"}
     buttons |= {"copy-toml", "copy-link", "record"}
     assert keys | buttons <= reached, keys | buttons - reached
     page.focus("#receiver")
     for key in ("ArrowRight", "ArrowRight", "ArrowDown"):
         page.keyboard.press(key)
-    assert "Region 11,8" in page.inner_text("#reasons")
+    assert "Region 12,8" in page.inner_text("#reasons")
     number = page.evaluate("foveate.sums.frames")
     page.keyboard.press("s")
     until(page, "number => foveate.sums.frames === number + 1", number)
@@ -635,14 +635,48 @@ def test_the_copied_link_of_a_served_page_has_no_address(server, still):
 
 
 def test_the_computer_serves_frames(server):
-    page, log = server
+    page, served = server
     frames(page, 2)
     assert page.input_value("#source") == "computer"
     assert page.evaluate("[foveate.camera.facts.width, foveate.camera.facts.height]") == [48, 32]
-    shown(page, "the end of it; Reset begins again")
+    # The end of a clip is no error.
+    until(page, "document.getElementById('source-status').textContent === 'the clip has ended; Reset begins again'")
+    assert page.locator("#notice").is_hidden()
     assert page.evaluate("foveate.sums.frames") == 3
     page.click("#reset")
     until(page, "foveate.sums.frames < 3")
     until(page, "foveate.sums.frames === 3")
-    assert "POST /restart" in log
-    assert {urllib.parse.urlsplit(line.split()[1]).path for line in log} == {"/", "/frames", "/restart"}
+    assert "POST /restart" in served.log
+    assert {urllib.parse.urlsplit(line.split()[1]).path for line in served.log} == {"/", "/frames", "/restart"}
+    # A fault at the end is one, also for a clip that loops.
+    served.end = "ffmpeg reports: damaged"
+    page.click("#loop")
+    page.click("#reset")
+    shown(page, "ffmpeg reports: damaged; Reset begins again")
+
+
+def test_a_clip_of_the_computer_begins_again_if_it_loops(server):
+    page, served = server
+    page.click("#loop")
+    page.click("#reset")
+    until(page, "foveate.sums.frames >= 7")
+    assert sum(line == "POST /restart" for line in served.log) >= 3
+    assert page.locator("#notice").is_hidden() and page.inner_text("#source-status") == ""
+    page.click("#loop")
+    until(page, "document.getElementById('source-status').textContent.includes('the clip has ended')")
+
+
+def test_an_input_that_another_page_shows_is_told(server):
+    page, served = server
+    frames(page, 1)
+    page.route("**/frames?*", lambda route: route.fulfill(body=b"\x16\x00\x00\x00" + b'{"status": "taken"}   ', content_type="application/octet-stream"))
+    page.click("#reset")
+    shown(page, "another page shows this input now; Reset brings it back")
+    viewers = {urllib.parse.parse_qs(urllib.parse.urlsplit(line.split()[1]).query)["viewer"][0] for line in served.log if "frames?" in line}
+    page.unroute("**/frames?*")
+    page.click("#reset")
+    until(page, "foveate.sums.frames === 3")
+    # The page asks under another name, so it is the last again.
+    later = {urllib.parse.parse_qs(urllib.parse.urlsplit(line.split()[1]).query)["viewer"][0] for line in served.log if "frames?" in line}
+    assert len(later) > len(viewers)
+    assert page.locator("#notice").is_hidden()

@@ -22,7 +22,7 @@ macro_rules! web_files {
 }
 
 /// The modules of the page. Each comes after the modules that it imports.
-const MODULES: [&str; 24] = web_files![
+const MODULES: [&str; 26] = web_files![
     "engine.js",
     "engine_text.js",
     "elements.js",
@@ -37,6 +37,8 @@ const MODULES: [&str; 24] = web_files![
     "screens.js",
     "controls.js",
     "figures.js",
+    "pinned.js",
+    "capture.js",
     "reasons.js",
     "recording.js",
     "hardware.js",

@@ -54,7 +54,15 @@ struct PlayerState {
     restart_requested: bool,
     is_over: bool,
     messages: Vec<String>,
+    /// The pages that have asked for a frame, the last to begin at the end. Only that one gets frames, because two pages
+    /// would take frames from each other.
+    viewers: Vec<String>,
 }
+
+/// The largest number of viewers that are remembered, and of bytes of the name of one.
+const MAX_VIEWERS: usize = 64;
+/// The status for a page whose input another page shows.
+const TAKEN: &str = "taken";
 
 impl PlayerState {
     fn new(text: String) -> Self {
@@ -67,7 +75,22 @@ impl PlayerState {
             restart_requested: false,
             is_over: false,
             messages: Vec::new(),
+            viewers: Vec::new(),
         }
+    }
+}
+
+impl PlayerState {
+    /// Notes a viewer that asks for the first time. Returns true if no other has begun after it.
+    fn is_last_viewer(&mut self, viewer: &str) -> bool {
+        let name = viewer.get(..viewer.len().min(MAX_VIEWERS)).unwrap_or_default();
+        if !self.viewers.iter().any(|known| known == name) {
+            if self.viewers.len() == MAX_VIEWERS {
+                self.viewers.remove(0);
+            }
+            self.viewers.push(name.to_owned());
+        }
+        self.viewers.last().is_some_and(|last| last == name)
     }
 }
 
@@ -202,11 +225,19 @@ impl FramePlayer {
 
     /// Returns the answer for the frame after frame `after`: the length of a JSON text in bytes as
     /// a 32-bit number, the text, and a byte per pixel. The answer has no pixels if no such frame
-    /// comes within `time_limit`.
-    pub(crate) fn frame_after(&self, after: Option<u64>, time_limit: Duration) -> Vec<u8> {
+    /// comes within `time_limit`, or if another page began after `viewer`.
+    pub(crate) fn frame_after(
+        &self,
+        after: Option<u64>,
+        viewer: Option<&str>,
+        time_limit: Duration,
+    ) -> Vec<u8> {
         let until = Instant::now() + time_limit;
         let first = after.map_or(0, |after| after.saturating_add(1));
         let mut state = self.lock();
+        if viewer.is_some_and(|viewer| !state.is_last_viewer(viewer)) {
+            return self.answer(&state, None, TAKEN);
+        }
         // A page may give any number, but cannot ask for more than the next frame.
         state.largest_requested = state.largest_requested.max(first.min(state.next));
         self.changed.notify_all();
@@ -218,19 +249,27 @@ impl FramePlayer {
             let waited = self.changed.wait_timeout(state, left);
             state = waited.unwrap_or_else(PoisonError::into_inner).0;
         }
+        if viewer.is_some_and(|viewer| !state.is_last_viewer(viewer)) {
+            return self.answer(&state, None, TAKEN);
+        }
         let newest = state.newest.as_ref().filter(|_| is_new(&state));
         // An existing frame is shown before the end of the clip is reported.
         let status = if newest.is_some() { InputStatus::Running } else { state.status };
+        self.answer(&state, newest, status.name())
+    }
+
+    /// Returns the bytes of an answer, with the pixels of a frame if there is one.
+    fn answer(&self, state: &PlayerState, newest: Option<&NumberedFrame>, status: &str) -> Vec<u8> {
         let text = json!({
-            "status": status.name(),
+            "status": status,
             "text": state.text,
             "live": self.kind == FrameDelivery::Camera,
             "number": newest.map(|newest| newest.number),
             "t_us": newest.map(|newest| newest.shown.time_us),
             "width": newest.map(|newest| newest.shown.frame.width()),
             "height": newest.map(|newest| newest.shown.frame.height()),
-        });
-        let text = text.to_string();
+        })
+        .to_string();
         let length = u32::try_from(text.len()).unwrap_or(u32::MAX);
         let pixels = match newest.map(|newest| newest.shown.frame.borrowed_pixels()) {
             Some(FramePixels::Bytes(pixels)) => pixels,
@@ -322,9 +361,12 @@ mod tests {
         let time_limit = Duration::from_secs(60);
         for run in 1..=2 {
             // The first two frames are never asked for.
-            let last = head(&player.frame_after(Some(3 * run - 2), time_limit));
+            let last = head(&player.frame_after(Some(3 * run - 2), None, time_limit));
             assert_eq!((&last["number"], &last["live"]), (&(3 * run - 1).into(), &true.into()));
-            assert_eq!(head(&player.frame_after(Some(3 * run - 1), time_limit))["status"], "ended");
+            assert_eq!(
+                head(&player.frame_after(Some(3 * run - 1), None, time_limit))["status"],
+                "ended"
+            );
             player.restart().unwrap();
         }
         player.end();

@@ -128,8 +128,14 @@ impl PageSite for PlayerSite {
         let frames = self.frames.as_ref()?;
         Some(match (method, subpath) {
             ("GET", "frames") => {
-                let after = query.strip_prefix("after=").and_then(|after| after.parse().ok());
-                HttpAnswer::binary(frames.frame_after(after, FRAME_WAIT))
+                let value = |key| {
+                    query
+                        .split('&')
+                        .find_map(|pair| pair.split_once('=').filter(|(name, _)| *name == key))
+                };
+                let after = value("after").and_then(|(_, after)| after.parse().ok());
+                let viewer = value("viewer").map(|(_, viewer)| viewer);
+                HttpAnswer::binary(frames.frame_after(after, viewer, FRAME_WAIT))
             }
             ("POST", "restart") => match frames.restart() {
                 Ok(()) => HttpAnswer::text("200 OK", "the input begins again"),

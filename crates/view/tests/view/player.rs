@@ -37,6 +37,33 @@ fn frame(link: &str, after: i64) -> (Value, Vec<u8>) {
     (serde_json::from_slice(text).unwrap(), pixels.to_owned())
 }
 
+/// Returns the status of an answer for a page of this name.
+fn status_for(link: &str, viewer: &str, after: i64) -> String {
+    let answer = get(link, &format!("frames?after={after}&viewer={viewer}"));
+    let (length, rest) = answer.body.split_first_chunk().unwrap();
+    let head: Value =
+        serde_json::from_slice(&rest[..u32::from_le_bytes(*length) as usize]).unwrap();
+    head["status"].as_str().unwrap().to_owned()
+}
+
+#[test]
+fn only_the_page_that_began_last_gets_frames() {
+    let player = play(&["scene:street"]).unwrap();
+    let link = player.link();
+    assert_eq!(status_for(&link, "one", -1), "running");
+    assert_eq!(status_for(&link, "two", -1), "running");
+    assert_eq!(status_for(&link, "one", 0), "taken");
+    assert_eq!(status_for(&link, "two", 0), "running");
+    // A page takes the input back under another name. A page without a name gets frames in any case.
+    assert_eq!(status_for(&link, "three", -1), "running");
+    assert_eq!(status_for(&link, "two", 1), "taken");
+    assert_eq!(frame(&link, 0).0["status"], "running");
+    // A page that waits for a frame learns that another one has begun.
+    let number =
+        (0..70).map(|number| status_for(&link, &format!("{number}{}", "x".repeat(200)), -1));
+    assert_eq!(number.filter(|status| status == "running").count(), 70);
+}
+
 fn restart(link: &str) -> HttpResponse {
     let (host, token) = link_parts(link);
     request(host, &format!("POST /{token}/restart HTTP/1.1\r\nHost: {host}\r\n\r\n"))
