@@ -5,6 +5,7 @@
 //! Scores, SRS and TRS are those of the model, and the reference is the one that it had before the
 //! frame. The hits are computed per pixel, and their sum must be the score.
 
+mod decision;
 mod gather;
 mod text;
 
@@ -12,6 +13,8 @@ use foveate_camera::{DenoiseFilter, Displacement, FeatureKind, RegionClass};
 use serde::Serialize;
 
 use crate::feature::surface::DisplacementSums;
+
+pub use decision::{DecidedRegion, DecisionExplanation, FeatureVote, TemporalCount};
 
 /// A square of values, row by row.
 pub type SquareRows<T> = Vec<Vec<T>>;

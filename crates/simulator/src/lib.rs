@@ -10,6 +10,7 @@
 //! Memory does not grow with the number of frames. The library never prints: progress and
 //! cancellation go through [`foveate_playback::RunHooks`].
 
+mod active_groups;
 mod batch;
 mod error;
 mod explanation;
@@ -20,16 +21,19 @@ mod simulation;
 mod stalls;
 mod stream;
 
+pub use active_groups::active_groups;
 pub use batch::{BatchSummary, ClipSummary, run_batch};
 pub use error::SimulatorError;
 pub use explanation::explain_region;
 pub use foveate_engine::MAX_THREADS;
-pub use foveate_model::explanation::RegionExplanation;
-pub use foveate_packets::{RegisterCommand, RegisterPacket, StreamLoss};
+pub use foveate_model::explanation::{DecidedRegion, DecisionExplanation, RegionExplanation};
+pub use foveate_packets::{PacketLayout, RegisterCommand, RegisterPacket, StreamLoss};
 pub use output::{
     BandwidthComparison, CameraTraffic, ClockFigures, ClockOptions, DataSetPaths,
-    EventTableOptions, GridSize, PIXEL_EVENT_BYTES, PacketContent, PictureFormat, PixelCamera,
-    PixelEvent, PixelEventOptions, RunOptions, RunSummary, ValueRange, write_packets,
+    EventTableOptions, FrameStart, GridSize, OverlayFrame, PIXEL_EVENT_BYTES, PacketContent,
+    PictureFormat, PixelCamera, PixelEvent, PixelEventOptions, RunOptions, RunSummary, SentCounts,
+    SentValues, ValueRange, draw_overlay, packet_bytes, packet_layout, wrapped_number,
+    write_kept_packets, write_packets,
 };
 pub use recording::{DecodedRecording, PacketRecording};
 pub use simulation::{SIMULATION_FOLDER, Simulation};

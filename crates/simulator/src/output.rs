@@ -16,6 +16,7 @@ mod data_set;
 mod deflate_packer;
 mod event_files;
 mod font;
+mod frame_packets;
 mod frame_table;
 mod headed_file;
 mod heatmap;
@@ -44,13 +45,17 @@ pub use bandwidth::{BandwidthComparison, CameraTraffic, PIXEL_EVENT_BYTES};
 pub use clock_files::ClockFigures;
 pub(crate) use csv::CsvFile;
 pub use data_set::DataSetPaths;
+pub use frame_packets::{
+    FrameStart, SentValues, packet_bytes, packet_layout, wrapped_number, write_kept_packets,
+    write_packets,
+};
 pub use options::{
     ClockOptions, EventTableOptions, PacketContent, PictureFormat, PixelEventOptions, RunOptions,
 };
-pub use packet_file::write_packets;
+pub use overlay::{OverlayFrame, draw_overlay};
 pub use pixel_camera::{PixelCamera, PixelEvent};
 pub(crate) use recorder::{DISK_FULL, FrameContent, INTERRUPTED, RunRecorder};
-pub use summary::{GridSize, RunSummary, ValueRange};
+pub use summary::{GridSize, RunSummary, SentCounts, ValueRange};
 
 use std::io;
 use std::path::Path;

@@ -177,17 +177,7 @@ impl RecordingWriter<'_> {
         is_cancelled: bool,
     ) -> Result<bool, SimulatorError> {
         loop {
-            let received = match stream.receive() {
-                Ok(Some(received)) => received,
-                Ok(None) => return Ok(true),
-                // A FRAME packet of another camera among frames of this one does not end the run.
-                Err(SimulatorError::Packets(error)) if stream.design().is_some() => {
-                    let frame = error.frame().unwrap_or_default();
-                    self.losses.push(StreamLoss::Foreign { frame })?;
-                    continue;
-                }
-                Err(error) => return Err(error),
-            };
+            let Some(received) = stream.receive_past_foreign()? else { return Ok(true) };
             match received {
                 StreamItem::Loss(loss) => self.losses.push(loss)?,
                 StreamItem::Register(_) => {}

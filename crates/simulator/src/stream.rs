@@ -102,6 +102,21 @@ impl PacketStream {
         self.decoder.as_ref().is_some_and(|run| run.assembler.layout().info().has_scores)
     }
 
+    /// Returns the next item as [`PacketStream::receive`] does. A FRAME packet of another camera among
+    /// frames of this one is a loss.
+    ///
+    /// # Errors
+    /// Fails if a FRAME packet does not belong to this camera, and no other did before.
+    pub fn receive_past_foreign(&mut self) -> Result<Option<StreamItem>, SimulatorError> {
+        match self.receive() {
+            Err(SimulatorError::Packets(error)) if self.design().is_some() => {
+                let frame = error.frame().unwrap_or_default();
+                Ok(Some(StreamItem::Loss(StreamLoss::Foreign { frame })))
+            }
+            received => received,
+        }
+    }
+
     /// Returns the next item, or `None` if more bytes are needed.
     ///
     /// # Errors

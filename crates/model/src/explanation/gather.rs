@@ -27,7 +27,7 @@ use crate::temporal::RegionReferences;
 use crate::{FunctionalOutcome, RegionMemory, region_pixels};
 
 /// Version of the format. It changes when a key is removed or changes its meaning.
-const FORMAT_VERSION: u32 = 1;
+pub(super) const FORMAT_VERSION: u32 = 1;
 
 impl RegionExplanation {
     /// Explains the decision for one region of a frame, from the state of the region before the
@@ -91,7 +91,7 @@ impl RegionExplanation {
 }
 
 impl RegionPosition {
-    fn of(camera: &Camera, region: u32) -> Self {
+    pub(super) fn of(camera: &Camera, region: u32) -> Self {
         let (size, columns) = (camera.region_size(), camera.columns());
         let (x, y) = (region % columns, region / columns);
         Self {
@@ -239,7 +239,7 @@ fn rows<T: Copy>(camera: &Camera, items: &[T]) -> SquareRows<T> {
 }
 
 /// Returns the row of the decision table as a sentence.
-fn rule(camera: &Camera, srs: bool, trs: bool, action: RegionAction) -> String {
+pub(super) fn rule(camera: &Camera, srs: bool, trs: bool, action: RegionAction) -> String {
     let payload = camera.payload().name();
     match (trs, srs) {
         (true, true) => format!("TRS 1, SRS 1: active, its {payload} pixels are sent and shown"),

@@ -7,13 +7,14 @@
 
 use std::fmt::{self, Display, Formatter, Write as _};
 
-use foveate_camera::RegionClass;
+use foveate_camera::{Displacement, FeatureKind, RegionClass};
 
 use crate::feature::surface::DisplacementSums;
 
 use super::{
-    DifferenceSum, DisplacementExplanation, RegionExplanation, SegmentParts, SpatialExplanation,
-    SquareRows, SummaryExplanation, TemporalExplanation,
+    DecisionExplanation, DifferenceSum, DisplacementExplanation, FeatureVote, RegionExplanation,
+    RegionPosition, SegmentParts, SpatialExplanation, SquareRows, SummaryExplanation,
+    TemporalExplanation,
 };
 
 /// Width of a terminal in columns.
@@ -28,29 +29,8 @@ const SHADES: &[u8; 10] = b" .:-=+*#%@";
 impl Display for RegionExplanation {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let grid = GridFormat::of(self);
-        let place = &self.region;
-        writeln!(
-            f,
-            "frame {} ({}) at {} us\nregion {},{} of {} x {}, pixels x {} to {}, y {} to {}",
-            self.frame,
-            shortened_name(&self.name),
-            self.t_us,
-            place.x,
-            place.y,
-            place.columns,
-            place.rows,
-            place.x0,
-            place.x0 + place.size - 1,
-            place.y0,
-            place.y0 + place.size - 1,
-        )?;
-        if place.padding_right + place.padding_below > 0 {
-            let (right, below) = (place.padding_right, place.padding_below);
-            writeln!(f, "padding: the last {right} columns and the last {below} rows")?;
-        }
-        if let Some(class) = self.class {
-            writeln!(f, "class {class}: {}", class_text(class))?;
-        }
+        write_heading(f, self.frame, Some(&self.name), self.t_us)?;
+        write_place(f, &self.region, self.class)?;
         writeln!(f, "{}", grid.note())?;
         grid.show(f, "raw", &self.raw, None)?;
         grid.show(f, &self.filter_text(), &self.denoised, None)?;
@@ -62,21 +42,104 @@ impl Display for RegionExplanation {
         for spatial in &self.spatial {
             writeln!(f, "{}", spatial.line())?;
         }
-        let srs = u8::from(self.srs);
-        match self.class.and_then(RegionClass::forced_srs) {
-            None => writeln!(f, "{:<9} SRS {srs} ({} of the votes)", "", self.combine)?,
-            Some(_) => writeln!(f, "{:<9} SRS {srs} (by the class, not by the votes)", "")?,
-        }
+        write_srs(f, self.srs, self.class, self.combine)?;
         let TemporalExplanation { count, min_count, .. } = self.temporal;
-        let sign = comparison_sign(self.trs);
-        let trs = u8::from(self.trs);
-        writeln!(f, "{:<9} {count} changed {sign} {min_count}: TRS {trs}", "temporal")?;
+        write_trs(f, self.trs, count, min_count)?;
         if let Some(summary) = &self.summary {
             writeln!(f, "{:<9} {}", "means", summary.line())?;
         }
-        let then = self.rule.replacen(": ", "\n          ", 1);
-        writeln!(f, "{:<9} {then}", "decision")
+        write_rule(f, &self.rule)
     }
+}
+
+impl Display for DecisionExplanation {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write_heading(f, self.frame, self.name.as_deref(), self.t_us)?;
+        write_place(f, &self.region, self.class)?;
+        writeln!(f, "an outcome has scores, but neither the pixels nor the reference\n")?;
+        for vote in &self.spatial {
+            let FeatureVote { feature, score, min_score, unit, vote, displacement, .. } = vote;
+            write!(f, "{}", score_line(*feature, (*score, *min_score), *unit, *vote))?;
+            if let Some(Displacement { dx, dy }) = displacement {
+                write!(f, "\n{:<9} displacement {dx},{dy} since the reference", "")?;
+            }
+            writeln!(f)?;
+        }
+        write_srs(f, self.srs, self.class, self.combine)?;
+        write_trs(f, self.trs, self.temporal.count, self.temporal.min_count)?;
+        write_rule(f, &self.rule)
+    }
+}
+
+/// Writes which frame is explained.
+fn write_heading(f: &mut Formatter<'_>, frame: u64, name: Option<&str>, t_us: u64) -> fmt::Result {
+    match name {
+        Some(name) => writeln!(f, "frame {frame} ({}) at {t_us} us", shortened_name(name)),
+        None => writeln!(f, "frame {frame} at {t_us} us"),
+    }
+}
+
+/// Writes where the region lies, and its class.
+fn write_place(
+    f: &mut Formatter<'_>,
+    place: &RegionPosition,
+    class: Option<RegionClass>,
+) -> fmt::Result {
+    writeln!(
+        f,
+        "region {},{} of {} x {}, pixels x {} to {}, y {} to {}",
+        place.x,
+        place.y,
+        place.columns,
+        place.rows,
+        place.x0,
+        place.x0 + place.size - 1,
+        place.y0,
+        place.y0 + place.size - 1,
+    )?;
+    if place.padding_right + place.padding_below > 0 {
+        let (right, below) = (place.padding_right, place.padding_below);
+        writeln!(f, "padding: the last {right} columns and the last {below} rows")?;
+    }
+    class.map_or(Ok(()), |class| writeln!(f, "class {class}: {}", class_text(class)))
+}
+
+/// Writes spatial relevance, and the rule by which it follows from the votes.
+fn write_srs(
+    f: &mut Formatter<'_>,
+    srs: bool,
+    class: Option<RegionClass>,
+    combine: &str,
+) -> fmt::Result {
+    let srs = u8::from(srs);
+    match class.and_then(RegionClass::forced_srs) {
+        None => writeln!(f, "{:<9} SRS {srs} ({combine} of the votes)", ""),
+        Some(_) => writeln!(f, "{:<9} SRS {srs} (by the class, not by the votes)", ""),
+    }
+}
+
+/// Writes temporal relevance, and the count that it follows from.
+fn write_trs(f: &mut Formatter<'_>, trs: bool, count: u32, min_count: u32) -> fmt::Result {
+    let (sign, trs) = (comparison_sign(trs), u8::from(trs));
+    writeln!(f, "{:<9} {count} changed {sign} {min_count}: TRS {trs}", "temporal")
+}
+
+/// Writes the row of the decision table.
+fn write_rule(f: &mut Formatter<'_>, rule: &str) -> fmt::Result {
+    writeln!(f, "{:<9} {}", "decision", rule.replacen(": ", "\n          ", 1))
+}
+
+/// Returns the score of a feature, its threshold and its vote in words.
+fn score_line(feature: FeatureKind, score: (u64, u64), unit: u64, is_vote: bool) -> String {
+    let (score, min_score) = score;
+    let sign = comparison_sign(is_vote);
+    let vote = if is_vote { "votes" } else { "does not vote" };
+    let mut line = format!("{:<9} {score} {sign} {min_score}: {vote}", feature.name());
+    if unit > 1 {
+        // Writing to a string cannot fail.
+        let _ = write!(line, "; {} per pixel", quotient_text(score, unit));
+    }
+    line
 }
 
 impl RegionExplanation {
@@ -126,14 +189,8 @@ impl SpatialExplanation {
     }
 
     fn line(&self) -> String {
-        let sign = comparison_sign(self.vote);
-        let vote = if self.vote { "votes" } else { "does not vote" };
-        let mut line =
-            format!("{:<9} {} {sign} {}: {vote}", self.feature.name(), self.score, self.min_score);
-        if self.unit > 1 {
-            // Writing to a string cannot fail.
-            let _ = write!(line, "; {} per pixel", quotient_text(self.score, self.unit));
-        }
+        let scores = (self.score, self.min_score);
+        let mut line = score_line(self.feature, scores, self.unit, self.vote);
         if let Some(parts) = &self.parts {
             let _ = write!(line, "; {} above, {} below", parts.count_above, parts.count_below);
         }

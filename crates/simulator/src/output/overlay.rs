@@ -7,6 +7,7 @@
 //! scores it is bright if the region is relevant. Classes of regions have marks and a legend.
 
 use foveate_camera::{Camera, Displacement, RegionAction};
+use foveate_engine::FrameOutcome;
 use foveate_frame::{ByteFrame, convert_depth};
 use foveate_pictures::palette::{ACTIVE, ACTIVE_BRIGHT, CHANGED, Colour, RELEVANT};
 
@@ -41,22 +42,59 @@ impl OverlayPainter {
     }
 }
 
+/// A frame and the decisions that an overlay shows.
+#[derive(Clone, Copy, Debug)]
+pub struct OverlayFrame<'a> {
+    /// The camera.
+    pub camera: &'a Camera,
+    /// The outcome of the frame, with its scores.
+    pub outcome: &'a FrameOutcome,
+    /// The pixels under the decisions, in the size of the camera's frames.
+    pub frame: &'a ByteFrame,
+    /// True if the regions have the classes of the camera's configuration. The marks of other
+    /// classes are not known.
+    pub has_own_map: bool,
+}
+
+/// Draws the overlay of a frame as a run does, without the legend and the chart below it. Returns the
+/// width, the height, and red, green and blue of every pixel. Small frames are enlarged by a whole
+/// factor.
+#[must_use]
+pub fn draw_overlay(shown: OverlayFrame<'_>) -> (u32, u32, Vec<u8>) {
+    let layout = PictureLayout::of_camera(shown.camera);
+    let mut canvas = PictureCanvas::new(layout.frame_width, layout.frame_height);
+    shown.draw(&mut canvas, layout, true);
+    (canvas.width, canvas.height, canvas.rgb)
+}
+
+impl OverlayFrame<'_> {
+    /// Draws the frame, the decisions, the marks of classes and the arrows.
+    fn draw(&self, canvas: &mut PictureCanvas, layout: PictureLayout, has_scores: bool) {
+        draw_frame(canvas, self, layout);
+        let marks = ClassMarks::of_camera(self.camera).filter(|_| self.has_own_map);
+        if let Some(marks) = marks {
+            marks.draw(canvas, self.camera.region_size() * layout.scale, layout);
+        }
+        draw_arrows(canvas, self, layout, has_scores);
+    }
+}
+
 impl PicturePainter for OverlayPainter {
     fn paint(&mut self, sink_frame: &SinkFrame<'_>) -> PictureCanvas {
-        let frame = &sink_frame.source.frame;
         let layout = PictureLayout::of_camera(sink_frame.camera);
         let line = (font::SIZE.1 + 4) * layout.dot;
         let marks = ClassMarks::of_camera(sink_frame.camera);
         let legend = if marks.is_some() { 2 * line } else { line };
         let height = layout.frame_height + legend + ActivityChart::HEIGHT_DOTS * layout.dot;
         let mut canvas = PictureCanvas::new(layout.width, height);
-        draw_frame(&mut canvas, frame, sink_frame, layout);
-        // A recording says of another map only that it is not that of the design.
-        let has_own_map = sink_frame.map_version.is_none_or(|version| version == 0);
-        if let Some(marks) = marks.as_ref().filter(|_| has_own_map) {
-            marks.draw(&mut canvas, sink_frame.camera.region_size() * layout.scale, layout);
-        }
-        draw_arrows(&mut canvas, sink_frame, layout, self.has_scores);
+        let shown = OverlayFrame {
+            camera: sink_frame.camera,
+            outcome: sink_frame.outcome,
+            frame: &sink_frame.source.frame,
+            // A recording says of another map only that it is not that of the design.
+            has_own_map: sink_frame.map_version.is_none_or(|version| version == 0),
+        };
+        shown.draw(&mut canvas, layout, self.has_scores);
         let regions = sink_frame.camera.regions();
         let active = sink_frame.outcome.active.iter().map(|&bit| u32::from(bit)).sum();
         draw_legend(&mut canvas, layout, active, sink_frame.camera);
@@ -70,19 +108,15 @@ impl PicturePainter for OverlayPainter {
     }
 }
 
-fn draw_frame(
-    canvas: &mut PictureCanvas,
-    frame: &ByteFrame,
-    sink_frame: &SinkFrame<'_>,
-    layout: PictureLayout,
-) {
-    let side = sink_frame.camera.region_size();
+fn draw_frame(canvas: &mut PictureCanvas, shown: &OverlayFrame<'_>, layout: PictureLayout) {
+    let OverlayFrame { camera, outcome, frame, .. } = *shown;
+    let side = camera.region_size();
     let cell = side * layout.scale;
     for y in 0..frame.height() {
         for x in 0..frame.width() {
-            let region = y / side * sink_frame.camera.columns() + x / side;
+            let region = y / side * camera.columns() + x / side;
             let grey = u32::from(convert_depth(frame.get(x, y), frame.bits(), 8));
-            let colour = tinted(grey, region_tint(sink_frame, region));
+            let colour = tinted(grey, region_tint(outcome, region));
             let scale = layout.scale;
             canvas.fill_rectangle(x * scale, y * scale, scale, scale, colour);
         }
@@ -90,17 +124,17 @@ fn draw_frame(
     if cell < SMALLEST_GRID {
         return;
     }
-    for (column, row) in (0..sink_frame.camera.rows())
-        .flat_map(|row| (0..sink_frame.camera.columns()).map(move |column| (column, row)))
+    for (column, row) in
+        (0..camera.rows()).flat_map(|row| (0..camera.columns()).map(move |column| (column, row)))
     {
         let area @ [left, top, width, height] = layout.region_area(cell, (column, row));
         lighten_line(canvas, [left, top, width, 1]);
         lighten_line(canvas, [left, top, 1, height]);
-        let region = (row * sink_frame.camera.columns() + column) as usize;
-        if sink_frame.outcome.active[region] {
+        let region = (row * camera.columns() + column) as usize;
+        if outcome.active[region] {
             canvas.draw_border(area, 1 + cell / 40, ACTIVE_BRIGHT);
         }
-        if sink_frame.outcome.actions[region] == RegionAction::Summarize {
+        if outcome.actions[region] == RegionAction::Summarize {
             canvas.draw_border(area, 1, TEXT);
         }
     }
@@ -110,11 +144,11 @@ fn draw_frame(
 /// last. Without scores, SRS takes the place of the vote.
 fn draw_arrows(
     canvas: &mut PictureCanvas,
-    sink_frame: &SinkFrame<'_>,
+    shown: &OverlayFrame<'_>,
     layout: PictureLayout,
     has_scores: bool,
 ) {
-    let SinkFrame { camera, outcome, .. } = sink_frame;
+    let OverlayFrame { camera, outcome, .. } = shown;
     let cell = camera.region_size() * layout.scale;
     let mut features = camera.features().iter().zip(&outcome.scores);
     let found = features.find_map(|(feature, scores)| Some((feature, scores, feature.radius()?)));
@@ -184,9 +218,9 @@ fn draw_legend(canvas: &mut PictureCanvas, layout: PictureLayout, active: u32, c
     }
 }
 
-fn region_tint(sink_frame: &SinkFrame<'_>, region: u32) -> Option<Colour> {
+fn region_tint(outcome: &FrameOutcome, region: u32) -> Option<Colour> {
     let region = region as usize;
-    match (sink_frame.outcome.srs[region], sink_frame.outcome.trs[region]) {
+    match (outcome.srs[region], outcome.trs[region]) {
         (true, true) => Some(ACTIVE),
         (true, false) => Some(RELEVANT),
         (false, true) => Some(CHANGED),

@@ -36,6 +36,18 @@ pub struct PixelEvent {
     pub brighter: bool,
 }
 
+impl PixelEvent {
+    /// Appends the event, with its time, as an element of a structured array of NumPy with the
+    /// fields and types of tonic: `x` and `y` (`<i2`), `t` (`<i8`) and `p` (`|b1`), 13 bytes in all.
+    pub fn append_record(self, time_us: u64, bytes: &mut Vec<u8>) {
+        // Coordinates stay below 2^14.
+        bytes.extend(self.x.to_le_bytes().into_iter().take(2));
+        bytes.extend(self.y.to_le_bytes().into_iter().take(2));
+        bytes.extend(time_us.to_le_bytes());
+        bytes.push(u8::from(self.brighter));
+    }
+}
+
 /// The pixels of an ordinary event camera.
 #[derive(Clone, Debug)]
 pub struct PixelCamera {

@@ -15,8 +15,7 @@ use super::{PixelCamera, PixelEvent, PixelEventOptions, cannot_write};
 use crate::SimulatorError;
 use foveate_staging::GrowingFile;
 
-/// The type of an event in NumPy's notation, with the field names and types of tonic. It has 13
-/// bytes.
+/// The type of the records of events in NumPy's notation.
 const EVENT_TYPE: &str = "[('x', '<i2'), ('y', '<i2'), ('t', '<i8'), ('p', '|b1')]";
 
 /// The camera and its open files.
@@ -69,13 +68,8 @@ impl PixelEventFiles {
         bytes.clear();
         camera.step(&sink_frame.source.frame.to_frame()?, |event| {
             *events += 1;
-            let polarity = u8::from(event.brighter);
             if npz.is_some() {
-                // Coordinates stay below 2^14.
-                bytes.extend(event.x.to_le_bytes().into_iter().take(2));
-                bytes.extend(event.y.to_le_bytes().into_iter().take(2));
-                bytes.extend(time.to_le_bytes());
-                bytes.push(polarity);
+                event.append_record(time, bytes);
             }
             for stream in streams.iter_mut() {
                 if written.is_ok() {
@@ -83,7 +77,8 @@ impl PixelEventFiles {
                 }
             }
             if let Some(csv) = csv {
-                csv.line([event.x.into(), event.y.into(), time, polarity.into()]);
+                let polarity = u64::from(event.brighter);
+                csv.line([event.x.into(), event.y.into(), time, polarity]);
             }
         });
         if let Some(npz) = npz {

@@ -97,15 +97,20 @@ pub struct RunSummary {
 }
 
 /// The data that is sent of one frame, or of many.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct SentCounts {
-    pub(super) pixels: u64,
-    pub(super) summaries: u64,
-    pub(super) means: u64,
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SentCounts {
+    /// The number of pixels, without the padding of ragged frames.
+    pub pixels: u64,
+    /// The number of summaries.
+    pub summaries: u64,
+    /// The number of means in these summaries.
+    pub means: u64,
 }
 
 impl SentCounts {
-    pub(super) fn of_actions(camera: &Camera, actions: &[RegionAction]) -> Self {
+    /// Counts what the regions of a frame send, given their actions in order.
+    #[must_use]
+    pub fn of_actions(camera: &Camera, actions: &[RegionAction]) -> Self {
         let mut sent = Self::default();
         for (region, &action) in (0..).zip(actions) {
             let values = camera.values_sent(region, action);

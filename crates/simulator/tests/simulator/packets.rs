@@ -4,8 +4,13 @@
 use std::fs;
 
 use foveate_design::{Design, Payload, RegionAction};
+use foveate_engine::Engine;
+use foveate_frame::ByteFrame;
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
-use foveate_simulator::{EventTableOptions, PacketContent, PictureFormat, RunOptions};
+use foveate_simulator::{
+    EventTableOptions, FrameStart, PacketContent, PictureFormat, RunOptions, SentValues,
+    packet_bytes, packet_layout, write_kept_packets, write_packets,
+};
 
 use crate::support::{design, frames, street};
 
@@ -197,5 +202,34 @@ fn the_stream_is_what_the_page_says_of_the_model() {
             stream.extend(by_the_page(&design, number, time(line), outcome));
         }
         assert!(fs::read(output.join("packets.bin")).unwrap() == stream, "design {at}");
+    }
+}
+
+#[test]
+fn packets_of_kept_values_are_those_of_the_engine_and_have_the_computed_length() {
+    for overrides in DESIGNS {
+        let design = design(overrides);
+        for content in [PacketContent::Plain, PacketContent::WithScores] {
+            let layout = packet_layout(&design, content).unwrap();
+            let mut engine = Engine::new(&design);
+            let mut kept = Vec::new();
+            for (number, frame) in (0..).zip(frames(&design)) {
+                let frame = ByteFrame::from(&frame);
+                engine.step_byte_frame(&frame).unwrap();
+                let (time, is_first) = (u64::from(number) * 1000, number == 0);
+                let mut bytes = Vec::new();
+                write_packets(&mut bytes, &layout, &engine, &frame, number, (time, is_first))
+                    .unwrap();
+                assert_eq!(packet_bytes(&layout, &engine.outcome().actions), bytes.len() as u64);
+                let values = SentValues::of_engine(&engine);
+                let start = FrameStart { number, time, is_first, map_version: 0 };
+                kept.push((engine.outcome().clone(), values, start, bytes));
+            }
+            for (outcome, values, start, expected) in kept {
+                let mut bytes = Vec::new();
+                write_kept_packets(&mut bytes, &layout, &outcome, &values, start).unwrap();
+                assert_eq!(bytes, expected, "{overrides:?}");
+            }
+        }
     }
 }
