@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from html import escape
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -26,7 +26,10 @@ class _Report(dict[str, Any]):
 
 
 class Explanation(_Report):
-    """The reason why a region was sent or dropped: pixels, scores, thresholds, votes and the rule, as in ``foveate explain --json``."""
+    """The reason why a region was sent or dropped: pixels, scores, thresholds, votes and the rule, as in ``foveate explain --json``.
+
+    That of ``Outcome.explain`` has no pixels, and nothing that follows from them.
+    """
 
 
 class Estimate(_Report):
@@ -54,6 +57,33 @@ class Fidelity(dict[str, Any]):
     def _repr_html_(self) -> str:
         rows = "".join(f"<tr><th>{escape(name)}</th><td>{escape(str(value))}</td></tr>" for name, value in self.items())
         return f"<table>{rows}</table>"
+
+
+class StreamLoss(NamedTuple):
+    """Something that is missing or wrong in a stream of packets, as a line of ``losses.csv``. ``str`` says it in words."""
+
+    kind: str
+    frame: int | None
+    row: int | None
+    column: int | None
+    amount: int | None
+    offset: int | None
+    text: str
+
+    def __str__(self) -> str:
+        return self.text
+
+
+for _name, _doc in {
+    "kind": "Kind, the column ``what`` of ``losses.csv``, such as \"bytes\", \"frames\" or \"region\".",
+    "frame": "Number of the frame; None if it is not known.",
+    "row": "Row of regions; None if the loss is not one of a row.",
+    "column": "Column of the region; None if the loss is not one of a region.",
+    "amount": "Number of bytes, frames or packets, the column ``count`` of ``losses.csv``; None for a loss without a number.",
+    "offset": "First byte in the stream that is no packet; None for other losses.",
+    "text": "The loss in words, as ``foveate decode`` prints it.",
+}.items():
+    getattr(StreamLoss, _name).__doc__ = _doc
 
 
 class Inference:

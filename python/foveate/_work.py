@@ -13,6 +13,9 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, Literal, TypeVar, Union, cast
 
+import numpy as np
+from numpy.typing import NDArray
+
 from foveate import _foveate
 from foveate._results import Estimate, Explanation, Fidelity, Inference
 
@@ -22,6 +25,8 @@ Number = Union[int, float, str]
 Crop = tuple[int, int, int, int]
 Images = Literal["clip", "set", "cifar-sheet"]
 Luma = Literal["coded", "full"]
+#: The type of a pixel event, that of tonic.
+_PIXEL_EVENT = np.dtype([("x", "<i2"), ("y", "<i2"), ("t", "<i8"), ("p", "?")])
 _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
@@ -41,7 +46,7 @@ def _check_options(function: _Function) -> _Function:
 
 @_check_options
 def explain(
-    inputs: Inputs,
+    inputs: Any,
     camera: Any = None,
     *,
     frame: int = 0,
@@ -61,8 +66,8 @@ def explain(
 
     Parameters
     ----------
-    inputs : path, pattern, "scene:NAME" or a list of these
-        Footage, as of ``simulate``.
+    inputs : path, pattern, "scene:NAME", a list of these, or frames
+        Footage or frames, as of ``simulate``.
     camera : Camera, Design, preset, file or dict, optional
         The camera. Its own state is neither used nor changed: the earlier frames are shown to another camera of its design.
     frame : int, default 0
@@ -81,6 +86,8 @@ def explain(
     ------
     IndexError
         If the frame or the region does not exist.
+    TypeError
+        If an option does not exist, or if ``inputs`` are neither footage nor frames.
     """
     values, text = _foveate.explain(
         inputs, camera, frame=frame, region=region, max_frames=max_frames, input_fps=input_fps, rate=rate, start=start, end=end,
@@ -91,7 +98,7 @@ def explain(
 
 @_check_options
 def fidelity(
-    inputs: Inputs,
+    inputs: Any,
     camera: Any = None,
     *,
     ideal: Any = None,
@@ -110,8 +117,8 @@ def fidelity(
 
     Parameters
     ----------
-    inputs : path, pattern, "scene:NAME" or a list of these
-        Footage, as of ``simulate``.
+    inputs : path, pattern, "scene:NAME", a list of these, or frames
+        Footage or frames, as of ``simulate``.
     camera : Camera, Design, preset, file or dict, optional
         The design to measure.
     ideal : Camera, Design, preset, file or dict, optional
@@ -130,6 +137,69 @@ def fidelity(
         resize=resize, luma=luma, images=images, labels=labels,
     )
     return Fidelity(json.loads(values), problem)
+
+
+@_check_options
+def pixel_events(
+    inputs: Any,
+    camera: Any = None,
+    *,
+    contrast: float | None = None,
+    log: bool = False,
+    max_frames: int | None = None,
+    input_fps: Number | None = None,
+    rate: Number | None = None,
+    start: Number | None = None,
+    end: Number | None = None,
+    crop: Crop | None = None,
+    resize: tuple[int, int] | None = None,
+    luma: Luma | None = None,
+    images: Images | None = None,
+    labels: PathLike | None = None,
+) -> NDArray[np.void]:
+    """Make the events of an ordinary event camera of the same frames, in the layout of the package tonic.
+
+    Parameters
+    ----------
+    inputs : path, pattern, "scene:NAME", a list of these, or frames
+        Footage or frames of one clip, as of ``simulate``.
+    camera : Camera, Design, preset, file or dict, optional
+        The design, whose bits per pixel the frames have, and whose ``temporal.level`` is the default of the contrast. Its state is
+        neither used nor changed.
+    contrast : float, optional
+        The change of a pixel that makes an event, from 0.01 on: in grey levels, or as a natural logarithm with ``log``. The default
+        is ``temporal.level`` + 1, or 0.2 with ``log``.
+    log : bool, default False
+        Take the logarithms of pixels.
+    max_frames, input_fps, rate, start, end, crop, resize, luma, images, labels : optional
+        How inputs are read, see ``simulate``. Frames from arrays have the times of ``rate`` (30 frames per second).
+
+    Returns
+    -------
+    numpy.ndarray
+        All events, a structured array: ``x``, ``y`` (int16, column and row of the pixel), ``t`` (int64, microseconds) and ``p`` (bool,
+        brighter), as ``tonic.io.make_structured_array`` makes it and transforms of tonic take it. They are those of ``foveate
+        simulate --pixel-events``. An event has the time of its frame, and needs 13 bytes.
+
+    Raises
+    ------
+    FileNotFoundError, ValueError
+        If an input cannot be read, is a set of unrelated images, or does not fit the configuration, or if the contrast is below 0.01.
+    TypeError
+        If an option does not exist or has another type, or if ``inputs`` are neither footage nor frames.
+    ToolError
+        If ffmpeg is needed and missing.
+
+    Examples
+    --------
+    >>> events = pixel_events("scene:street", contrast=15, max_frames=8)
+    >>> events["p"].mean(), events["t"].max()
+    """
+    records = _foveate.pixel_event_records(
+        inputs, camera, contrast, log, max_frames=max_frames, input_fps=input_fps, rate=rate, start=start, end=end, crop=crop,
+        resize=resize, luma=luma, images=images, labels=labels,
+    )
+    return records.view(_PIXEL_EVENT)
 
 
 def generate(camera: Any, folder: PathLike, *, force: bool = False, prefix: str | None = None) -> list[Path]:

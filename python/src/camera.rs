@@ -1,22 +1,27 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A camera that takes frames one by one.
 
-use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
+use std::sync::{Arc, Mutex, MutexGuard};
 
-use foveate_design::{DesignConfig, RegionClass};
-use foveate_engine::{Engine, EngineOptions, MAX_THREADS};
+use foveate_design::DesignConfig;
+use foveate_engine::MAX_THREADS;
+use foveate_simulator::SentValues;
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray2};
-use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
+use crate::camera_state::{CameraState, NO_SIZE, SizedEngine, lock_camera};
 use crate::clock::{MicroSeconds, StepClock};
 use crate::config;
 use crate::design::{Design, in_words};
 use crate::error::raise;
-use crate::frame::{Grey, rows};
-use crate::outcome::{FrameRecord, Outcome, Screen};
+use crate::frame::Grey;
+use crate::frame_record::FrameRecord;
+use crate::outcome::{KeptParts, Outcome};
+use crate::region_arrays::Screen;
+use crate::region_classes::classes_of;
 use crate::registers::registers_of;
 use crate::tools;
 
@@ -88,54 +93,10 @@ impl<'py> FromPyObject<'_, 'py> for Threads {
     }
 }
 
-/// The engine for frames of the size of the first frame.
-struct SizedEngine {
-    /// The design of the engine, which outcomes share.
-    design: Arc<foveate_design::Design>,
-    engine: Engine,
-}
-
-impl SizedEngine {
-    fn new(design: foveate_design::Design, threads: usize) -> PyResult<Self> {
-        let options = EngineOptions { threads, ..EngineOptions::default() };
-        let engine = Engine::with_options(&design, options).map_err(raise)?;
-        Ok(Self { design: Arc::new(design), engine })
-    }
-}
-
-/// The message of a camera that has no size yet.
-const NO_SIZE: &str = "this camera has no size yet: it takes that of its first frame, so show it one, or give the size, \
-                       frame={\"width\": 640, \"height\": 480}";
-
-/// The state of a camera.
-struct CameraState {
-    /// The engine, which is kept after a reset for frames of the same size.
-    sized_engine: Option<SizedEngine>,
-    /// Number of frames since the camera was made or reset.
-    frames: u64,
-    /// Number of frames in all, which says to which outcome the screen belongs.
-    steps: u64,
-    /// Times of the frames.
-    clock: StepClock,
-    /// The process to which the threads belong.
-    process: u32,
-    bytes: Vec<u8>,
-    words: Vec<u16>,
-}
-
 impl Camera {
     /// Makes a camera that has seen no frame.
     fn of(config: DesignConfig, threads: usize) -> Self {
-        let state = CameraState {
-            sized_engine: None,
-            frames: 0,
-            steps: 0,
-            clock: StepClock::default(),
-            process: std::process::id(),
-            bytes: Vec::new(),
-            words: Vec::new(),
-        };
-        Self { config, threads, state: Mutex::new(state) }
+        Self { config, threads, state: Mutex::new(CameraState::new()) }
     }
 
     pub(crate) fn config(&self) -> &DesignConfig {
@@ -151,33 +112,26 @@ impl Camera {
         self.design()
     }
 
-    fn lock_state(&self) -> PyResult<MutexGuard<'_, CameraState>> {
+    pub(crate) fn lock_state(&self) -> PyResult<MutexGuard<'_, CameraState>> {
         lock_camera(&self.state, "Camera")
     }
 
     /// Returns the screen after a step, if no later step has replaced it.
     pub(crate) fn screen(&self, py: Python<'_>, step: u64) -> PyResult<Screen> {
         let state = self.lock_state()?;
-        match &state.sized_engine {
-            Some(sized_engine) if state.steps == step => {
-                Ok(Screen::of(py, &sized_engine.design, sized_engine.engine.rendered()))
-            }
-            _ => Err(PyRuntimeError::new_err(
-                "this outcome's rendered frame is gone, because the camera has taken another frame or was reset; \
-                 read outcome.rendered before the next step, or keep it with step(frame, keep=True)",
-            )),
-        }
+        let own = state.engine_after(step, "rendered frame is", "rendered")?;
+        Ok(Screen::of(py, &own.design, own.engine.rendered()))
     }
-}
 
-/// Locks the state of a camera of this class, for one thread at a time.
-pub(crate) fn lock_camera<'a, T>(state: &'a Mutex<T>, class: &str) -> PyResult<MutexGuard<'a, T>> {
-    match state.try_lock() {
-        Ok(state) => Ok(state),
-        Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
-        Err(TryLockError::WouldBlock) => Err(PyRuntimeError::new_err(format!(
-            "another thread is using this camera; give each thread a camera of its own, {class}(camera.design)"
-        ))),
+    /// Returns the values that were sent in a step, if no later step has replaced them.
+    pub(crate) fn sent_values(&self, step: u64) -> PyResult<SentValues> {
+        let state = self.lock_state()?;
+        Ok(state.engine_after(step, "pixels are", "packets()")?.sent_values())
+    }
+
+    /// Prepares the state for a frame of this size, or refuses the frame.
+    pub(crate) fn fit(&self, state: &mut CameraState, size: (usize, usize)) -> PyResult<()> {
+        state.fit(&self.config, self.threads, size)
     }
 }
 
@@ -220,7 +174,7 @@ impl Camera {
             return Ok(None);
         }
         let mut state = self.lock_state()?;
-        let SizedEngine { design, engine } = state.engine_of(self)?;
+        let SizedEngine { design, engine, .. } = state.engine_of(&self.config, self.threads)?;
         let codes = engine.classes().iter().map(|class| class.code()).collect();
         let shape = (design.rows() as usize, design.columns() as usize);
         let codes = Array2::from_shape_vec(shape, codes).expect("a class for each region");
@@ -236,9 +190,9 @@ impl Camera {
             ));
         }
         let mut state = self.lock_state()?;
-        let SizedEngine { design, engine } = state.engine_of(self)?;
-        let classes = classes_of(classes, (design.rows(), design.columns()))?;
-        engine.set_classes(&classes).map_err(raise)
+        let sized_engine = state.engine_of(&self.config, self.threads)?;
+        let size = (sized_engine.design.rows(), sized_engine.design.columns());
+        sized_engine.set_classes(&classes_of(classes, size)?).map_err(raise)
     }
 
     /// Forget every frame. The next one is a first frame, and may have another size.
@@ -293,7 +247,8 @@ impl Camera {
         let state = &mut *guard;
         let number = state.frames;
         let time_us = state.clock.next(number, time_us.map(|MicroSeconds(time)| time))?;
-        state.fit(&camera.config, camera.threads, &grey)?;
+        camera.fit(state, grey.size())?;
+        grey.check(camera.config.camera.frame.pixel_bits)?;
         match &grey {
             Grey::Bytes(array) => {
                 let view = array.as_array();
@@ -306,20 +261,84 @@ impl Camera {
         }
         .map_err(raise)?;
         state.clock.take(number, time_us);
-        let SizedEngine { design, engine } =
-            state.sized_engine.as_ref().expect("it has taken a frame");
+        let sized_engine = state.sized_engine.as_ref().expect("it has taken a frame");
         let record = FrameRecord {
-            design: Arc::clone(design),
-            result: engine.outcome().clone(),
+            design: Arc::clone(&sized_engine.design),
+            result: sized_engine.engine.outcome().clone(),
             number,
             time_us,
+            is_first: number == 0,
             name: None,
             label: None,
+            classes: sized_engine.classes(),
         };
-        let screen = keep.then(|| Screen::of(py, design, engine.rendered()));
+        let kept = keep.then(|| KeptParts {
+            screen: Screen::of(py, &sized_engine.design, sized_engine.engine.rendered()),
+            values: sized_engine.sent_values(),
+        });
         let step = state.steps;
         drop(guard);
-        Ok(Outcome::of_camera(py, record, slf.clone().unbind(), step, screen))
+        Ok(Outcome::of_camera(py, record, slf.clone().unbind(), step, kept))
+    }
+
+    /// Take the next frames, all of a clip, and stack the outcomes.
+    ///
+    /// Parameters
+    /// ----------
+    /// inputs : path, pattern, "scene:NAME", a list of these, or frames
+    ///     Inputs as of `foveate.simulate`, of one clip. Frames are an array of shape (frames, height, width), or a list of
+    ///     arrays (height, width); a copy of them is kept until the end.
+    /// rendered : bool, default True
+    ///     Keep the frames on the receiver's screen, which need most of the memory: as many bytes as the clip has pixels (twice
+    ///     as many above 8 bits). Everything else needs 12 bytes per region and frame, and 8 more for each feature.
+    /// progress : bool, optional
+    ///     Show a line of progress on standard error. The default shows it on a terminal and in a notebook.
+    /// max_frames, input_fps, rate, start, end, crop, resize, luma, images, labels : optional
+    ///     How inputs are read, see `foveate.simulate`. Frames from arrays have the times of `rate` (30 frames per second).
+    ///
+    /// Returns
+    /// -------
+    /// ClipOutcome
+    ///     The outcomes of all frames as arrays whose first axis is the frame.
+    ///
+    /// Notes
+    /// -----
+    /// The camera continues from its state, as with `step`, and keeps its state afterwards: two runs over two halves of a clip
+    /// give the outcomes of one run over the whole clip. Times of a later run continue from the last frame. Call `reset` first
+    /// for a clip of its own. Ctrl-C ends the run after the frame at hand; the camera has then taken the frames so far, whose
+    /// outcomes are dropped. The same is true if a frame cannot be read.
+    ///
+    /// Raises
+    /// ------
+    /// FileNotFoundError, ValueError
+    ///     If an input cannot be read, is a set of unrelated images, has another size than frames before, or does not fit the
+    ///     configuration.
+    /// TypeError
+    ///     If an option does not exist or has another type, or if `inputs` are neither footage nor frames.
+    /// ToolError
+    ///     If ffmpeg is needed and missing.
+    /// RuntimeError
+    ///     If another thread is using the camera.
+    ///
+    /// Examples
+    /// --------
+    /// >>> found = Camera("paper").run(clip, rendered=False)
+    /// >>> found.active.mean(axis=(1, 2)), found.sent_bytes
+    #[pyo3(
+        signature = (inputs, *, rendered=true, progress=None, **options),
+        text_signature = "($self, inputs, *, rendered=True, progress=None, max_frames=None, input_fps=None, rate=None, start=None, end=None, \
+                          crop=None, resize=None, luma=None, images=None, labels=None)"
+    )]
+    fn run<'py>(
+        slf: &Bound<'py, Self>,
+        inputs: &Bound<'py, PyAny>,
+        rendered: bool,
+        progress: Option<bool>,
+        options: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let options = options.map_or_else(|| Ok(PyDict::new(slf.py())), |own| own.copy())?;
+        let arguments = (slf, inputs, rendered, progress, options);
+        slf.py().import("foveate._clip")?.call_method1("run_camera", arguments)
     }
 
     fn __repr__(&self) -> PyResult<String> {
@@ -384,93 +403,5 @@ impl Camera {
     fn _from_toml(text: &str, threads: Threads) -> PyResult<Self> {
         let config = DesignConfig::from_toml(text).map_err(raise)?;
         Ok(Self::of(config, threads.0))
-    }
-}
-
-/// Returns the classes of an array of codes, row by row.
-fn classes_of(codes: &Bound<'_, PyAny>, (rows, columns): (u32, u32)) -> PyResult<Vec<RegionClass>> {
-    let numpy = codes.py().import("numpy")?;
-    let codes = numpy.call_method1("asarray", (codes,))?;
-    let expected = format!(
-        "zones takes an array of shape ({rows}, {columns}) of whole numbers: 0 normal, 1 off, 2 keen, 3 always"
-    );
-    let kind: String = codes.getattr("dtype")?.getattr("kind")?.extract()?;
-    if !matches!(kind.as_str(), "u" | "i") {
-        let given = codes.getattr("dtype")?;
-        return Err(PyTypeError::new_err(format!("{expected}; not of {given}")));
-    }
-    let shape: Vec<usize> = codes.getattr("shape")?.extract()?;
-    if shape != [rows as usize, columns as usize] {
-        let given = codes.getattr("shape")?;
-        return Err(PyValueError::new_err(format!("{expected}; not of shape {given}")));
-    }
-    let codes: Vec<i128> = codes.call_method0("ravel")?.call_method0("tolist")?.extract()?;
-    let class = |code: i128| {
-        let class = u8::try_from(code).ok().and_then(RegionClass::from_code);
-        class.ok_or_else(|| PyValueError::new_err(format!("{expected}; {code} is no class")))
-    };
-    codes.into_iter().map(class).collect()
-}
-
-impl CameraState {
-    /// Returns the engine of a camera, and makes it first if the configuration has the size of frames.
-    fn engine_of(&mut self, camera: &Camera) -> PyResult<&mut SizedEngine> {
-        if self.sized_engine.is_none() {
-            let frame = &camera.config.camera.frame;
-            if frame.width.is_none() || frame.height.is_none() {
-                return Err(PyValueError::new_err(NO_SIZE));
-            }
-            let design = camera.config.validate().map_err(raise)?;
-            self.sized_engine = Some(SizedEngine::new(design, camera.threads)?);
-            self.process = std::process::id();
-        }
-        Ok(self.sized_engine.as_mut().expect("it has just been made"))
-    }
-
-    /// Prepares the camera for a frame, or refuses the frame.
-    fn fit(&mut self, config: &DesignConfig, threads: usize, frame: &Grey<'_>) -> PyResult<()> {
-        let own_size = self
-            .sized_engine
-            .as_ref()
-            .map(|own| (own.design.width() as usize, own.design.height() as usize));
-        if self.frames > 0 {
-            if threads != 1 && self.process != std::process::id() {
-                return Err(PyRuntimeError::new_err(
-                    "this camera has threads, which do not exist after a fork; make the camera in the new process",
-                ));
-            }
-            frame.check_size(own_size.expect("it has seen a frame"))?;
-        } else if own_size != Some(frame.size()) || self.process != std::process::id() {
-            self.sized_engine = Some(SizedEngine::new(frame.design(config)?, threads)?);
-            self.process = std::process::id();
-        }
-        frame.check(config.camera.frame.pixel_bits)
-    }
-
-    fn take_bytes(
-        &mut self,
-        view: &numpy::ndarray::ArrayView2<'_, u8>,
-    ) -> Result<(), foveate_engine::EngineError> {
-        let Self { sized_engine, bytes, .. } = self;
-        let (pixels, stride) = rows(view, bytes);
-        sized_engine.as_mut().expect("made ready").engine.step_u8(pixels, stride)?;
-        self.count();
-        Ok(())
-    }
-
-    fn take_words(
-        &mut self,
-        view: &numpy::ndarray::ArrayView2<'_, u16>,
-    ) -> Result<(), foveate_engine::EngineError> {
-        let Self { sized_engine, words, .. } = self;
-        let (pixels, stride) = rows(view, words);
-        sized_engine.as_mut().expect("made ready").engine.step_u16(pixels, stride)?;
-        self.count();
-        Ok(())
-    }
-
-    fn count(&mut self) {
-        self.frames += 1;
-        self.steps += 1;
     }
 }

@@ -1,23 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The clocks of a whole clip.
 
-use std::ffi::CString;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use foveate_design::DesignConfig;
-use foveate_footage::{InputOptions, SourceKind};
+use foveate_footage::InputOptions;
 use foveate_playback::RunMonitor;
 use foveate_timed::TimedClip;
-use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::clip_inputs::ClipInputs;
+use crate::clip_inputs::{ClipInputs, problem_text, warn_of_problem};
 use crate::clock_table::ClockTable;
 use crate::config;
 use crate::core_surroundings::{ClockFrequency, CoreSurroundings, SinkRate, SinkStalls};
-use crate::error::{raise, value_error};
+use crate::error::raise;
 use crate::options::input_options;
 use crate::work::{CancelFlag, interruptible};
 
@@ -80,10 +78,7 @@ pub(crate) fn clocks<'py>(
     let (rows, problem) = interruptible(py, |cancel| {
         rows_of_clip(inputs, &config, &surroundings, &options, cancel)
     })??;
-    if let Some(problem) = problem {
-        let text = CString::new(problem).unwrap_or_default();
-        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)?;
-    }
+    warn_of_problem(py, problem)?;
     rows.into_python(py)
 }
 
@@ -95,15 +90,7 @@ fn rows_of_clip(
     options: &InputOptions,
     cancel: Arc<AtomicBool>,
 ) -> PyResult<(ClockTable, Option<String>)> {
-    let mut player = inputs.open(config, options).map_err(raise)?;
-    match player.kind() {
-        SourceKind::Clip => {}
-        SourceKind::Set => {
-            return Err(value_error(
-                "images of a set do not follow one another; clocks needs a clip",
-            ));
-        }
-    }
+    let mut player = inputs.open_clip("clocks", &config.camera, options)?;
     let (width, height) = player.size();
     let design = config.validate_for_frames(width, height).map_err(raise)?;
     let mut clip = TimedClip::new(&design, surroundings.clock_hz, &surroundings.sink);
@@ -116,7 +103,5 @@ fn rows_of_clip(
         clip.step(pixels, frame.time_us, &mut |row| rows.push(row)).map_err(raise)?;
     }
     clip.finish(&mut |row| rows.push(row)).for_each(drop);
-    let problem =
-        player.problem().map(|problem| format!("{}: {problem}", player.inputs().join(", ")));
-    Ok((rows, problem))
+    Ok((rows, problem_text(&player)))
 }

@@ -1,22 +1,61 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Clips as Python passes them: footage by its name, or frames as arrays.
 
+use std::ffi::CString;
 use std::path::PathBuf;
 
-use foveate_design::DesignConfig;
-use foveate_footage::{InputOptions, source_from_memory};
+use foveate_design::CameraConfig;
+use foveate_footage::{
+    ClipPlan, InputOptions, SourceKind, plan, skipped_in_words, source_from_memory,
+};
 use foveate_frame::ByteFrame;
 use foveate_playback::{ClipPlayer, PlaybackError};
 use numpy::PyUntypedArrayMethods;
-use pyo3::exceptions::PyTypeError;
+use pyo3::exceptions::{PyTypeError, PyUserWarning};
 use pyo3::prelude::*;
 
 use crate::array::untyped;
-use crate::footage::{paths, warn_of_skipped};
+use crate::error::{raise, value_error};
 use crate::frame::Grey;
 
 /// The name of frames from arrays in results.
 pub(crate) const ARRAY_NAME: &str = "array";
+
+/// Returns inputs as paths: one, or a list of several.
+pub(crate) fn paths(inputs: &Bound<'_, PyAny>) -> PyResult<Vec<PathBuf>> {
+    if let Ok(path) = inputs.extract::<PathBuf>() {
+        return Ok(vec![path]);
+    }
+    let kind = inputs.get_type().name()?;
+    inputs.extract::<Vec<PathBuf>>().map_err(|_| {
+        PyTypeError::new_err(format!(
+            "inputs are a path, a pattern or scene:NAME, or a list of these, not {kind}"
+        ))
+    })
+}
+
+/// Warns of files and folders among the inputs that are not read although they might have been meant.
+fn warn_of_skipped(py: Python<'_>, inputs: &[PathBuf], options: &InputOptions) -> PyResult<()> {
+    for sentence in py.detach(|| skipped_in_words(inputs, options)) {
+        let text = CString::new(sentence).unwrap_or_default();
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)?;
+    }
+    Ok(())
+}
+
+/// Returns the error that ended a clip before its end, with the names of its inputs.
+pub(crate) fn problem_text(player: &ClipPlayer) -> Option<String> {
+    let problem = player.problem()?;
+    Some(format!("{}: {problem}", player.inputs().join(", ")))
+}
+
+/// Warns of the error that ended a clip before its end, if there is one.
+pub(crate) fn warn_of_problem(py: Python<'_>, problem: Option<String>) -> PyResult<()> {
+    problem.map_or(Ok(()), |problem| {
+        let text = CString::new(problem).unwrap_or_default();
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)
+    })
+}
 
 /// The inputs of a function that takes footage or arrays.
 pub(crate) enum ClipInputs {
@@ -74,14 +113,42 @@ impl ClipInputs {
         }
     }
 
+    /// Refuses inputs that are several clips.
+    pub(crate) fn refuse_several(&self, options: &InputOptions) -> PyResult<()> {
+        let Self::Paths(paths) = self else { return Ok(()) };
+        match plan(paths, options).map_err(raise)? {
+            ClipPlan::One => Ok(()),
+            ClipPlan::Batch(clips) => Err(value_error(format!(
+                "the inputs are {} clips; simulate them one after the other",
+                clips.len()
+            ))),
+        }
+    }
+
+    /// Opens the inputs as a clip. A set of unrelated images is refused by `function`.
+    pub(crate) fn open_clip(
+        self,
+        function: &str,
+        camera: &CameraConfig,
+        options: &InputOptions,
+    ) -> PyResult<ClipPlayer> {
+        let player = self.open(camera, options).map_err(raise)?;
+        match player.kind() {
+            SourceKind::Clip => Ok(player),
+            SourceKind::Set => Err(value_error(format!(
+                "images of a set do not follow one another; {function} needs a clip"
+            ))),
+        }
+    }
+
     /// Opens the inputs as one clip or set.
     pub(crate) fn open(
         self,
-        config: &DesignConfig,
+        camera: &CameraConfig,
         options: &InputOptions,
     ) -> Result<ClipPlayer, PlaybackError> {
         match self {
-            Self::Paths(paths) => ClipPlayer::open(&paths, &config.camera, options),
+            Self::Paths(paths) => ClipPlayer::open(&paths, camera, options),
             Self::Frames(frames) => Ok(source_from_memory(ARRAY_NAME, frames, options)?.into()),
         }
     }

@@ -1,56 +1,31 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Footage of the command line, shown frame by frame to a camera of its own.
 
-use std::ffi::CString;
-use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use foveate_engine::Engine;
-use foveate_footage::{ClipPlan, InputOptions, plan, skipped_in_words};
 use foveate_frame::{ByteFrame, FramePixels};
 use foveate_playback::{ClipPlayer, PlaybackError, PlayedFrame};
+use foveate_simulator::SentValues;
 use numpy::ndarray::Axis;
 use numpy::{
     Element, PyArray2, PyArray3, PyArrayDescrMethods, PyArrayMethods, PyUntypedArrayMethods,
     ToPyArray,
 };
-use pyo3::exceptions::{PyTypeError, PyUserWarning, PyValueError};
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::array::{conversion, untyped};
+use crate::clip_inputs::{ClipInputs, problem_text, warn_of_problem};
 use crate::config;
 use crate::design::{Design, in_words};
-use crate::error::{raise, value_error};
+use crate::error::raise;
+use crate::frame_record::{FrameRecord, RegionClasses};
 use crate::options::input_options;
-use crate::outcome::{FrameRecord, Outcome, Screen};
+use crate::outcome::{KeptParts, Outcome};
+use crate::region_arrays::Screen;
 use crate::work::at_once;
-
-/// Returns inputs as paths: one, or a list of several.
-pub(crate) fn paths(inputs: &Bound<'_, PyAny>) -> PyResult<Vec<PathBuf>> {
-    if let Ok(path) = inputs.extract::<PathBuf>() {
-        return Ok(vec![path]);
-    }
-    let kind = inputs.get_type().name()?;
-    inputs.extract::<Vec<PathBuf>>().map_err(|_| {
-        PyTypeError::new_err(format!(
-            "inputs are a path, a pattern or scene:NAME, or a list of these, not {kind}; arrays go to Camera.step"
-        ))
-    })
-}
-
-/// Warns of files and folders among the inputs that are not read although they might have been meant.
-pub(crate) fn warn_of_skipped(
-    py: Python<'_>,
-    inputs: &[PathBuf],
-    options: &InputOptions,
-) -> PyResult<()> {
-    for sentence in py.detach(|| skipped_in_words(inputs, options)) {
-        let text = CString::new(sentence).unwrap_or_default();
-        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)?;
-    }
-    Ok(())
-}
 
 /// A run over footage, made by `simulate`: an iterator of outcomes that holds one frame at a time.
 ///
@@ -74,11 +49,12 @@ struct RunState {
     engine: Engine,
 }
 
-/// A frame, its outcome, and the screen after it.
+/// A frame, its outcome, the screen after it, and the values that it sends.
 struct RunFrame {
     record: FrameRecord,
     frame: PlayedFrame,
     screen: ByteFrame,
+    values: SentValues,
 }
 
 impl Run {
@@ -105,11 +81,7 @@ impl Run {
     /// The error that ended the footage before its end; None without an error.
     #[getter]
     fn problem(&self, py: Python<'_>) -> Option<String> {
-        py.detach(|| {
-            let state = self.state();
-            let problem = state.player.problem()?;
-            Some(format!("{}: {problem}", state.player.inputs().join(", ")))
-        })
+        py.detach(|| problem_text(&self.state().player))
     }
 
     fn __iter__(slf: PyRef<'_, Self>) -> PyRef<'_, Self> {
@@ -120,16 +92,13 @@ impl Run {
         py.check_signals()?;
         let design = Arc::clone(&self.design);
         let next = py.detach(|| self.state().next(design)).map_err(raise)?;
-        let Some(RunFrame { record, frame, screen }) = next else {
-            let problem = self.problem(py);
-            if let Some(problem) = problem {
-                let text = CString::new(problem).unwrap_or_default();
-                PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)?;
-            }
+        let Some(RunFrame { record, frame, screen, values }) = next else {
+            warn_of_problem(py, self.problem(py))?;
             return Ok(None);
         };
         let array = |raster: &ByteFrame| Screen::of(py, &self.design, raster.borrowed_pixels());
-        Ok(Some(Outcome::of_run(py, record, array(&frame.frame), array(&screen))))
+        let kept = KeptParts { screen: array(&screen), values };
+        Ok(Some(Outcome::of_run(py, record, array(&frame.frame), kept)))
     }
 
     fn __repr__(&self) -> String {
@@ -145,10 +114,16 @@ impl RunState {
     ) -> Result<Option<RunFrame>, PlaybackError> {
         let Some(frame) = self.player.next().transpose()? else { return Ok(None) };
         let result = frame.show_to(&mut self.engine)?.clone();
+        // The run never changes the map of its configuration.
+        let zones = design.zones();
+        let classes = zones
+            .map(|zones| RegionClasses { map: zones.configured_classes().to_vec(), maps_set: 0 });
         let record = FrameRecord {
             result,
             number: frame.number,
             time_us: frame.time_us,
+            is_first: frame.is_first(),
+            classes,
             name: Some(frame.name.clone()),
             label: frame.label.clone(),
             design,
@@ -162,7 +137,8 @@ impl RunState {
                 ByteFrame::from_words(width, height, bits, pixels.to_vec())?
             }
         };
-        Ok(Some(RunFrame { record, frame, screen }))
+        let values = SentValues::of_engine(&self.engine);
+        Ok(Some(RunFrame { record, frame, screen, values }))
     }
 }
 
@@ -170,8 +146,10 @@ impl RunState {
 ///
 /// Parameters
 /// ----------
-/// inputs : path, pattern, "scene:NAME" or a list of these
-///     Inputs of the command line: a video, images, a set, a scene. Videos need ffmpeg.
+/// inputs : path, pattern, "scene:NAME", a list of these, or frames
+///     Inputs of the command line: a video, images, a set, a scene. Videos need ffmpeg. Or frames that you have as arrays: an
+///     array of shape (frames, height, width), or a list of arrays (height, width), grey pixels as `Camera.step` takes them.
+///     They are one clip, of which a copy is kept until the end, and have the times of `rate`.
 /// camera : Camera, Design, preset, file or dict, optional
 ///     The camera. The run makes its own camera of this design, which has seen no frame; the state of `camera` is
 ///     neither used nor changed.
@@ -201,6 +179,8 @@ impl RunState {
 /// ------
 /// FileNotFoundError, ValueError
 ///     If an input cannot be read, or does not fit the configuration.
+/// TypeError
+///     If an option does not exist or has another type, or if `inputs` are neither footage nor frames.
 /// ToolError
 ///     If ffmpeg is needed and missing.
 ///
@@ -219,17 +199,13 @@ pub(crate) fn simulate(
     camera: Option<&Bound<'_, PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Run> {
-    let (inputs, options) = (paths(inputs)?, input_options("simulate", &[], options)?);
-    warn_of_skipped(py, &inputs, &options)?;
+    let options = input_options("simulate", &[], options)?;
     let config = config::read(camera, None)?;
+    let inputs = ClipInputs::of("simulate", inputs, config.camera.frame.pixel_bits)?;
+    inputs.warn_of_skipped(py, &options)?;
     at_once(py, move || -> PyResult<Run> {
-        if let ClipPlan::Batch(clips) = plan(&inputs, &options).map_err(raise)? {
-            return Err(value_error(format!(
-                "the inputs are {} clips; simulate them one after the other",
-                clips.len()
-            )));
-        }
-        let player = ClipPlayer::open(&inputs, &config.camera, &options).map_err(raise)?;
+        inputs.refuse_several(&options)?;
+        let player = inputs.open(&config.camera, &options).map_err(raise)?;
         let (width, height) = player.size();
         let design = config.validate_for_frames(width, height).map_err(raise)?;
         let (total, engine) = (player.frames(), Engine::new(&design));

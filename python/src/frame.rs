@@ -76,21 +76,12 @@ impl<'py> Grey<'py> {
 
     /// Refuses a frame of another size than the frames before it.
     pub(crate) fn check_size(&self, own: (usize, usize)) -> PyResult<()> {
-        let ((width, height), (own_width, own_height)) = (self.size(), own);
-        if (width, height) == own {
-            return Ok(());
-        }
-        Err(PyValueError::new_err(format!(
-            "the frame has {width}x{height} pixels, but this camera has taken frames of {own_width}x{own_height}; \
-             make a camera for each size, or call reset() before the first frame of another size"
-        )))
+        check_size(self.size(), own)
     }
 
     /// Returns the design of a configuration for frames of this size.
     pub(crate) fn design(&self, config: &DesignConfig) -> PyResult<foveate_design::Design> {
-        let (width, height) = self.size();
-        let side = |side: usize| u32::try_from(side).unwrap_or(u32::MAX);
-        config.validate_for_frames(side(width), side(height)).map_err(raise)
+        design_of_size(config, self.size())
     }
 
     /// Returns a copy of the frame with the depth of the design.
@@ -126,6 +117,27 @@ impl<'py> Grey<'py> {
         };
         (shape[1], shape[0])
     }
+}
+
+/// Refuses a frame of another size than the frames before it.
+pub(crate) fn check_size((width, height): (usize, usize), own: (usize, usize)) -> PyResult<()> {
+    let (own_width, own_height) = own;
+    if (width, height) == own {
+        return Ok(());
+    }
+    Err(PyValueError::new_err(format!(
+        "the frame has {width}x{height} pixels, but this camera has taken frames of {own_width}x{own_height}; \
+         make a camera for each size, or call reset() before the first frame of another size"
+    )))
+}
+
+/// Returns the design of a configuration for frames of this width and height.
+pub(crate) fn design_of_size(
+    config: &DesignConfig,
+    (width, height): (usize, usize),
+) -> PyResult<foveate_design::Design> {
+    let side = |side: usize| u32::try_from(side).unwrap_or(u32::MAX);
+    config.validate_for_frames(side(width), side(height)).map_err(raise)
 }
 
 /// Describes how to make a frame of a value that is none.

@@ -15,10 +15,9 @@ use pyo3::exceptions::{PyIsADirectoryError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::clip_inputs::{ARRAY_NAME, ClipInputs};
+use crate::clip_inputs::{ARRAY_NAME, ClipInputs, paths};
 use crate::config;
 use crate::error::raise;
-use crate::footage::paths;
 use crate::options::input_options;
 use crate::study::json;
 use crate::work::{CancelFlag, interruptible};

@@ -7,20 +7,27 @@
 
 mod array;
 mod camera;
+mod camera_state;
 mod clip_clocks;
 mod clip_inputs;
+mod clip_run;
 mod clock;
 mod clock_table;
 mod config;
 mod core_surroundings;
+mod decoding;
 mod design;
 mod error;
 mod footage;
 mod frame;
+mod frame_record;
 mod inference;
 mod options;
 mod outcome;
 mod picture;
+mod pixel_events;
+mod region_arrays;
+mod region_classes;
 mod registers;
 mod study;
 mod table;
@@ -42,6 +49,10 @@ mod _foveate {
     #[pymodule_export]
     use crate::clip_clocks::clocks;
     #[pymodule_export]
+    use crate::clip_run::run_clip;
+    #[pymodule_export]
+    use crate::decoding::{DecodedFrame, Decoding, decode};
+    #[pymodule_export]
     use crate::design::{Design, presets};
     #[pymodule_export]
     use crate::error::ToolError;
@@ -55,6 +66,8 @@ mod _foveate {
     use crate::outcome::Outcome;
     #[pymodule_export]
     use crate::picture::{decisions_png, grey_png};
+    #[pymodule_export]
+    use crate::pixel_events::pixel_event_records;
     #[pymodule_export]
     use crate::study::{explain, fidelity};
     #[pymodule_export]

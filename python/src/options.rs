@@ -48,6 +48,7 @@ pub(crate) fn refuse_option(function: &str, name: &str) -> PyResult<()> {
     let own: &[&str] = match function {
         "infer" => &crate::inference::OWN,
         "fidelity" => &["ideal"],
+        "pixel_events" => &crate::pixel_events::OWN,
         _ => &["frame", "region"],
     };
     Err(unknown(function, own, name))

@@ -1,61 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The outcome of one frame. Arrays own their memory, and are made when they are first read.
 
-use std::sync::Arc;
-
-use foveate_design::RegionAction;
-use foveate_engine::FrameOutcome;
-use foveate_frame::FramePixels;
-use numpy::{Element, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyUntypedArray};
-use pyo3::exceptions::PyTypeError;
+use foveate_simulator::{OverlayFrame, PacketContent, SentValues, active_groups, draw_overlay};
+use numpy::ndarray::{Array2, Array3};
+use numpy::{IntoPyArray, PyArray2, PyArray3, PyUntypedArray};
+use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::PyDict;
+use pyo3::types::{PyBytes, PyDict};
 
 use crate::camera::Camera;
 use crate::design::Design;
-
-/// A frame and its results, as numbers.
-pub(crate) struct FrameRecord {
-    pub(crate) design: Arc<foveate_design::Design>,
-    pub(crate) result: FrameOutcome,
-    pub(crate) number: u64,
-    pub(crate) time_us: u64,
-    pub(crate) name: Option<String>,
-    pub(crate) label: Option<String>,
-}
-
-/// A frame of pixels as an array that owns its memory.
-pub(crate) struct Screen(Py<PyUntypedArray>);
-
-impl Screen {
-    /// Returns the pixels of a frame of a design.
-    pub(crate) fn of(
-        py: Python<'_>,
-        design: &foveate_design::Design,
-        pixels: FramePixels<'_>,
-    ) -> Self {
-        let size = [design.height() as usize, design.width() as usize];
-        Self(match pixels {
-            FramePixels::Bytes(pixels) => untyped(py, pixels, size),
-            FramePixels::Words(pixels) => untyped(py, pixels, size),
-        })
-    }
-}
-
-fn untyped<T: Element + Copy>(
-    py: Python<'_>,
-    pixels: &[T],
-    size: [usize; 2],
-) -> Py<PyUntypedArray> {
-    let array = PyArray1::from_slice(py, pixels).reshape(size);
-    array
-        .expect("a pixel for every place")
-        .into_any()
-        .cast_into()
-        .expect("an array is one")
-        .unbind()
-}
+use crate::error::raise;
+use crate::frame::Grey;
+use crate::frame_record::FrameRecord;
+use crate::region_arrays::{RegionArrays, Screen};
+use crate::study::json;
 
 /// The outcome of one frame: decisions, scores and the screen. Its arrays own their memory.
 ///
@@ -79,8 +39,13 @@ fn untyped<T: Element + Copy>(
 ///     The frame as the camera saw it; None for `Camera.step`, whose caller has the frame.
 /// number : int
 ///     Number of the frame, from 0.
-/// Time of the frame in microseconds since the first.
+/// time_us : int
 ///     Time since the first frame in microseconds.
+/// sent_pixels : int
+///     Number of pixels that the active regions forward, without padding beyond the frame; `pixels_forwarded` of `frames.csv`.
+/// sent_bytes : int
+///     Number of bytes of the packets of the frame without scores, as `foveate simulate --packets` writes them: decisions of
+///     all regions, pixels, means and what is around them. It follows from the decisions, so it is there at any time.
 /// name, label : str or None
 ///     Name of the frame and class of the image, if there are any.
 /// design : Design
@@ -93,13 +58,15 @@ pub(crate) struct Outcome {
     /// The camera whose screen shows the rendered frame, and the number of its step.
     camera: Option<(Py<Camera>, u64)>,
     rendered: PyOnceLock<Screen>,
-    srs: PyOnceLock<Py<PyArray2<bool>>>,
-    trs: PyOnceLock<Py<PyArray2<bool>>>,
-    active: PyOnceLock<Py<PyArray2<bool>>>,
-    action: PyOnceLock<Py<PyArray2<u8>>>,
-    changed: PyOnceLock<Py<PyArray2<i64>>>,
-    scores: PyOnceLock<Py<PyDict>>,
-    displacements: PyOnceLock<Py<PyArray3<i8>>>,
+    /// The values that the regions send, of which packets are made.
+    values: PyOnceLock<SentValues>,
+    arrays: RegionArrays,
+}
+
+/// The parts of an outcome that the next frame of its camera overwrites.
+pub(crate) struct KeptParts {
+    pub(crate) screen: Screen,
+    pub(crate) values: SentValues,
 }
 
 impl Outcome {
@@ -108,25 +75,14 @@ impl Outcome {
         record: FrameRecord,
         frame: Option<Screen>,
         camera: Option<(Py<Camera>, u64)>,
-        screen: Option<Screen>,
+        kept: Option<KeptParts>,
     ) -> Self {
-        let rendered = PyOnceLock::new();
-        if let Some(screen) = screen {
-            rendered.get_or_init(py, || screen);
+        let (rendered, values) = (PyOnceLock::new(), PyOnceLock::new());
+        if let Some(kept) = kept {
+            rendered.get_or_init(py, || kept.screen);
+            values.get_or_init(py, || kept.values);
         }
-        Self {
-            record,
-            frame,
-            camera,
-            rendered,
-            srs: PyOnceLock::new(),
-            trs: PyOnceLock::new(),
-            active: PyOnceLock::new(),
-            action: PyOnceLock::new(),
-            changed: PyOnceLock::new(),
-            scores: PyOnceLock::new(),
-            displacements: PyOnceLock::new(),
-        }
+        Self { record, frame, camera, rendered, values, arrays: RegionArrays::new() }
     }
 
     /// Makes the outcome of a camera's step, which reads the rendered frame later unless it is kept.
@@ -135,9 +91,9 @@ impl Outcome {
         record: FrameRecord,
         camera: Py<Camera>,
         step: u64,
-        screen: Option<Screen>,
+        kept: Option<KeptParts>,
     ) -> Self {
-        Self::new(py, record, None, Some((camera, step)), screen)
+        Self::new(py, record, None, Some((camera, step)), kept)
     }
 
     /// Makes the outcome of a run, with frame and rendered frame.
@@ -145,27 +101,13 @@ impl Outcome {
         py: Python<'_>,
         record: FrameRecord,
         frame: Screen,
-        screen: Screen,
+        kept: KeptParts,
     ) -> Self {
-        Self::new(py, record, Some(frame), None, Some(screen))
+        Self::new(py, record, Some(frame), None, Some(kept))
     }
 
     pub(crate) fn record(&self) -> &FrameRecord {
         &self.record
-    }
-
-    fn size(&self) -> [usize; 2] {
-        [self.record.design.rows() as usize, self.record.design.columns() as usize]
-    }
-
-    /// Returns an array of regions, which is made once.
-    fn once<T: Element>(
-        &self,
-        py: Python<'_>,
-        held: &PyOnceLock<Py<PyArray2<T>>>,
-        values: impl ExactSizeIterator<Item = T>,
-    ) -> Py<PyArray2<T>> {
-        held.get_or_init(py, || array(py, values, self.size()).unbind()).clone_ref(py)
     }
 }
 
@@ -204,63 +146,44 @@ impl Outcome {
     /// Spatial relevance: array of bool, shape (rows, columns).
     #[getter]
     fn srs(&self, py: Python<'_>) -> Py<PyArray2<bool>> {
-        self.once(py, &self.srs, self.record.result.srs.iter().copied())
+        self.arrays.srs(py, self.record.results())
     }
 
     /// Temporal relevance: array of bool, shape (rows, columns).
     #[getter]
     fn trs(&self, py: Python<'_>) -> Py<PyArray2<bool>> {
-        self.once(py, &self.trs, self.record.result.trs.iter().copied())
+        self.arrays.trs(py, self.record.results())
     }
 
     /// Regions that are relevant in space and in time, whose pixels are sent: array of bool, shape (rows, columns).
     #[getter]
     fn active(&self, py: Python<'_>) -> Py<PyArray2<bool>> {
-        self.once(py, &self.active, self.record.result.active.iter().copied())
+        self.arrays.active(py, self.record.results())
     }
 
     /// The action of each region on the screen, an index into `foveate.ACTIONS`: array of uint8, shape (rows, columns).
     #[getter]
     fn action(&self, py: Python<'_>) -> Py<PyArray2<u8>> {
-        self.once(py, &self.action, self.record.result.actions.iter().map(|&action| code(action)))
+        self.arrays.action(py, self.record.results())
     }
 
     /// Number of changed pixels of a region, all of its pixels without a valid reference: array of int64, shape (rows, columns).
     #[getter]
     fn changed(&self, py: Python<'_>) -> Py<PyArray2<i64>> {
-        let counts = self.record.result.temporal_count.iter();
-        self.once(py, &self.changed, counts.map(|&count| count.into()))
+        self.arrays.changed(py, self.record.results())
     }
 
     /// Scores by feature, in the units of the contract: dict of str to array of int64, shape (rows, columns).
     #[getter]
     fn scores(&self, py: Python<'_>) -> PyResult<Py<PyDict>> {
-        let make = || -> PyResult<Py<PyDict>> {
-            let found = PyDict::new(py);
-            let features = self.record.design.features().iter();
-            for (feature, scores) in features.zip(&self.record.result.scores) {
-                let signed = |&score: &u64| i64::try_from(score).expect("scores are below 2^54");
-                let scores = array(py, scores.iter().map(signed), self.size());
-                found.set_item(feature.kind().to_string(), scores)?;
-            }
-            Ok(found.unbind())
-        };
-        Ok(self.scores.get_or_try_init(py, make)?.clone_ref(py))
+        self.arrays.scores(py, self.record.results())
     }
 
     /// Movement of the content of each region since its reference, [dx, dy] in pixels to the right and down: array of int8,
     /// shape (rows, columns, 2); None for a design without the feature `flow`.
     #[getter]
     fn displacements(&self, py: Python<'_>) -> Option<Py<PyArray3<i8>>> {
-        self.record.design.displacement_feature()?;
-        let make = || {
-            let pairs = self.record.result.displacements.iter();
-            let numbers = pairs.flat_map(|one| [one.dx, one.dy]).collect();
-            let [rows, columns] = self.size();
-            let array = PyArray1::from_vec(py, numbers).reshape([rows, columns, 2]);
-            array.expect("two numbers for every region").unbind()
-        };
-        Some(self.displacements.get_or_init(py, make).clone_ref(py))
+        self.arrays.displacements(py, self.record.results())
     }
 
     /// The frame as the camera saw it: array of uint8 or uint16, shape (height, width); None for a frame that was given as an
@@ -280,9 +203,165 @@ impl Outcome {
         Ok(self.rendered.get_or_try_init(py, read)?.0.clone_ref(py))
     }
 
+    /// Number of pixels that the active regions forward, without padding beyond the frame.
+    #[getter]
+    fn sent_pixels(&self) -> u64 {
+        self.record.sent_counts().pixels
+    }
+
+    /// Number of bytes of the packets of the frame, without scores; it is known at any time, also after the next step.
+    #[getter]
+    fn sent_bytes(&self) -> PyResult<u64> {
+        self.record.sent_bytes().map_err(raise)
+    }
+
+    /// Make the packets that the camera sends for the frame, as `foveate simulate --packets` writes them.
+    ///
+    /// Parameters
+    /// ----------
+    /// scores : bool, default False
+    ///     Also send the scores of all regions, as with `--packets=scores`.
+    ///
+    /// Returns
+    /// -------
+    /// bytes
+    ///     The packets, which `foveate.decode` reads. Those of the frames of a clip, joined, are the file `packets.bin`.
+    ///
+    /// Raises
+    /// ------
+    /// RuntimeError
+    ///     If this is an outcome of `Camera.step`, and the camera has taken another frame since or was reset: the pixels are
+    ///     read from the camera at the first use, as `rendered` is, unless the step was called with `keep`.
+    #[pyo3(signature = (*, scores=false))]
+    fn packets<'py>(&self, py: Python<'py>, scores: bool) -> PyResult<Bound<'py, PyBytes>> {
+        let read = || {
+            let (camera, step) = self.camera.as_ref().expect("what no camera has is kept");
+            camera.get().sent_values(*step)
+        };
+        let values = self.values.get_or_try_init(py, read)?;
+        let content = if scores { PacketContent::WithScores } else { PacketContent::Plain };
+        let packets = py.detach(|| self.record.packets(values, content)).map_err(raise)?;
+        Ok(PyBytes::new(py, &packets))
+    }
+
+    /// Draw the decisions over the frame, as `foveate simulate --overlay` does, without the legend and the chart below it.
+    ///
+    /// Parameters
+    /// ----------
+    /// frame : array of shape (height, width), optional
+    ///     Grey pixels to draw over, as `Camera.step` takes them. The default is `frame` of the outcome. An outcome of
+    ///     `Camera.step` has none, so give the frame that the camera took. Another frame of its size, such as `rendered`, is
+    ///     allowed.
+    ///
+    /// Returns
+    /// -------
+    /// array of uint8, shape (scale * height, scale * width, 3)
+    ///     Red, green and blue: active regions green, relevant but unchanged ones orange, changed but irrelevant ones blue.
+    ///     Small frames are enlarged by a whole number, the scale. Marks of classes are drawn unless `Camera.zones` was
+    ///     assigned.
+    ///
+    /// Raises
+    /// ------
+    /// TypeError
+    ///     If the outcome has no frame and none is given, or if the frame is no array of pixels of the design.
+    /// ValueError
+    ///     If the frame has another size.
+    #[pyo3(signature = (frame=None))]
+    fn overlay<'py>(
+        &self,
+        py: Python<'py>,
+        frame: Option<&Bound<'py, PyAny>>,
+    ) -> PyResult<Bound<'py, PyArray3<u8>>> {
+        let own = self.frame.as_ref().map(|own| own.0.bind(py).as_any());
+        let Some(frame) = frame.or(own) else {
+            return Err(PyTypeError::new_err(
+                "this outcome has no frame, because Camera.step does not keep the frame that it takes; give that frame, \
+                 outcome.overlay(frame)",
+            ));
+        };
+        let design = &self.record.design;
+        let grey = Grey::of(frame, design.pixel_bits())?;
+        let size = (design.width() as usize, design.height() as usize);
+        if grey.size() != size {
+            let ((width, height), (own_width, own_height)) = (grey.size(), size);
+            return Err(PyValueError::new_err(format!(
+                "the frame has {width}x{height} pixels, but this outcome is that of a frame of {own_width}x{own_height}; give \
+                 the frame that the camera took"
+            )));
+        }
+        let frame = grey.raster(design.pixel_bits())?;
+        let (width, height, colours) = py.detach(|| {
+            draw_overlay(OverlayFrame {
+                camera: design,
+                outcome: &self.record.result,
+                frame: &frame,
+                has_own_map: self.record.has_own_map(),
+            })
+        });
+        let shape = (height as usize, width as usize, 3);
+        let colours = Array3::from_shape_vec(shape, colours).expect("three values for each pixel");
+        Ok(colours.into_pyarray(py))
+    }
+
+    /// Explain the decision for a region from its scores: why it was sent or dropped.
+    ///
+    /// Parameters
+    /// ----------
+    /// region : (int, int)
+    ///     Column and row of the region.
+    ///
+    /// Returns
+    /// -------
+    /// Explanation
+    ///     A dict with the keys of `foveate.explain`, and the same values, as far as scores tell them: scores, thresholds, votes,
+    ///     counts, class and rule. An outcome has no pixels of regions and references, so keys that hold pixels or follow from
+    ///     them (`raw`, `denoised`, `hits`, `mean`, `parts`, `displacements`, `differences`, `reference`, `summary`) are
+    ///     missing; `foveate.explain` has them.
+    ///
+    /// Raises
+    /// ------
+    /// IndexError
+    ///     If the region does not exist.
+    fn explain<'py>(&self, py: Python<'py>, region: (u32, u32)) -> PyResult<Bound<'py, PyAny>> {
+        let explanation = self.record.explain(region).map_err(raise)?;
+        let values = py.import("json")?.call_method1("loads", (json(&explanation)?,))?;
+        let text = explanation.to_string();
+        py.import("foveate._results")?.call_method1("Explanation", (values, text))
+    }
+
+    /// Find the boxes around groups of active regions that touch, also at corners.
+    ///
+    /// Returns
+    /// -------
+    /// array of float32, shape (boxes, 4)
+    ///     Left, upper, right and lower edge of each box in pixels, within the frame, in the order of the groups' first regions.
+    fn boxes<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f32>> {
+        #[allow(clippy::cast_precision_loss, reason = "sides of frames are below 2^15")]
+        let edge = |&edge: &u32| edge as f32;
+        let groups = active_groups(&self.record.design, &self.record.result.active);
+        let edges: Vec<f32> = groups.as_flattened().iter().map(edge).collect();
+        let boxes = Array2::from_shape_vec((groups.len(), 4), edges).expect("four edges each");
+        boxes.into_pyarray(py)
+    }
+
+    /// Return the boxes around groups of active regions as `supervision.Detections`.
+    ///
+    /// Returns
+    /// -------
+    /// supervision.Detections
+    ///     Detections whose `xyxy` are `boxes()`, without classes and confidences.
+    ///
+    /// Raises
+    /// ------
+    /// ImportError
+    ///     If the package supervision is not installed.
+    fn detections<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        slf.py().import("foveate._detections")?.call_method1("detections_of", (slf,))
+    }
+
     fn __repr__(&self) -> String {
         let FrameRecord { result, number, .. } = &self.record;
-        let [rows, columns] = self.size();
+        let (columns, rows) = (self.record.design.columns(), self.record.design.rows());
         let active = result.active.iter().filter(|&&active| active).count();
         format!("<foveate.Outcome of frame {number}: {active} of {columns}x{rows} regions active>")
     }
@@ -297,23 +376,4 @@ impl Outcome {
             "an outcome cannot be pickled; pickle its arrays, or the table that foveate.events makes",
         ))
     }
-}
-
-/// Returns the number of an action, which is its index in `foveate.ACTIONS`.
-fn code(action: RegionAction) -> u8 {
-    match action {
-        RegionAction::Blank => 0,
-        RegionAction::Hold => 1,
-        RegionAction::Forward => 2,
-        RegionAction::Summarize => 3,
-    }
-}
-
-/// Returns the values of all regions, row by row.
-fn array<T: Element>(
-    py: Python<'_>,
-    values: impl ExactSizeIterator<Item = T>,
-    size: [usize; 2],
-) -> Bound<'_, PyArray2<T>> {
-    PyArray1::from_iter(py, values).reshape(size).expect("a value for every place")
 }

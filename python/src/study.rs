@@ -2,13 +2,12 @@
 //! Questions about a design over footage: why a region was sent, and how far the design is from the ideal camera.
 
 use foveate_explore::compare;
-use foveate_playback::ClipPlayer;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::clip_inputs::ClipInputs;
 use crate::config;
 use crate::error::{raise, value_error};
-use crate::footage::{paths, warn_of_skipped};
 use crate::options::input_options;
 use crate::work::{CancelFlag, at_once, interruptible};
 
@@ -28,11 +27,12 @@ pub(crate) fn explain(
     region: (u32, u32),
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<(String, String)> {
-    let (inputs, options) = (paths(inputs)?, input_options("explain", &[], options)?);
-    warn_of_skipped(py, &inputs, &options)?;
+    let options = input_options("explain", &[], options)?;
     let config = config::read(camera, None)?;
+    let inputs = ClipInputs::of("explain", inputs, config.camera.frame.pixel_bits)?;
+    inputs.warn_of_skipped(py, &options)?;
     let explanation = at_once(py, move || {
-        let player = ClipPlayer::open(&inputs, &config.camera, &options).map_err(raise)?;
+        let player = inputs.open(&config.camera, &options).map_err(raise)?;
         foveate_simulator::explain_region(&config, player, frame, region).map_err(raise)
     })??;
     Ok((json(&explanation)?, explanation.to_string()))
@@ -48,14 +48,15 @@ pub(crate) fn fidelity(
     ideal: Option<&Bound<'_, PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<(String, Option<String>)> {
-    let (inputs, options) = (paths(inputs)?, input_options("fidelity", &["ideal"], options)?);
-    warn_of_skipped(py, &inputs, &options)?;
+    let options = input_options("fidelity", &["ideal"], options)?;
     let config = config::read(camera, None)?;
+    let inputs = ClipInputs::of("fidelity", inputs, config.camera.frame.pixel_bits)?;
+    inputs.warn_of_skipped(py, &options)?;
     let ideal =
         ideal.map_or_else(|| Ok(config.clone()), |ideal| config::read(Some(ideal), None))?;
     let compared = interruptible(py, |cancel| {
-        compare(&inputs, &options, &config.camera, &ideal.camera, &CancelFlag(cancel))
-    })?
-    .map_err(raise)?;
+        let player = inputs.open(&ideal.camera, &options).map_err(raise)?;
+        compare(player, &config.camera, &ideal.camera, &CancelFlag(cancel)).map_err(raise)
+    })??;
     Ok((json(&compared.figures)?, compared.problem))
 }

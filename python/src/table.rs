@@ -9,7 +9,8 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use crate::outcome::{FrameRecord, Outcome};
+use crate::frame_record::FrameRecord;
+use crate::outcome::Outcome;
 
 /// The values of a column.
 enum Values {

@@ -10,7 +10,7 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::camera::lock_camera;
+use crate::camera_state::lock_camera;
 use crate::clock::{MicroSeconds, StepClock};
 use crate::clock_table::ClockTable;
 use crate::config;

@@ -301,8 +301,8 @@ def test_footage_that_cannot_be_read_is_refused_as_on_the_command_line(tmp_path)
         fv.simulate(tmp_path / "text.mp4")
     with pytest.raises(ValueError, match="unknown scene|scene"):
         fv.simulate("scene:moon")
-    with pytest.raises(TypeError, match="arrays go to Camera.step"):
-        fv.simulate(np.zeros((3, 4, 4), np.uint8))
+    with pytest.raises(TypeError, match=r"or frames, which are an array of shape \(frames, height, width\)"):
+        fv.simulate(np.zeros((4, 4), np.uint8))
     for options, message in [
         ({"max_frames": 0}, "max_frames = 0"),
         ({"resize": (0, 5)}, "resize"),

@@ -44,7 +44,8 @@ def parameters(thing):
 
 
 def test_there_is_something_to_test():
-    assert {"simulate", "infer", "Camera", "Camera.step", "Design.generate", "Inference.table", "Registers.over_serial"} <= set(callables())
+    methods = {"Camera.step", "Camera.run", "Outcome.packets", "Design.generate", "Inference.table", "Registers.over_serial"}
+    assert {"simulate", "infer", "Camera", "decode", "pixel_events", *methods} <= set(callables())
 
 
 @pytest.mark.parametrize("name", sorted(callables()))
@@ -107,9 +108,11 @@ def test_every_attribute_has_its_documentation(name):
 
 
 def test_arrays_say_their_type_and_their_shape():
-    for name in ("srs", "trs", "active", "action", "changed", "scores", "displacements", "rendered", "frame"):
-        text = getattr(fv.Outcome, name).__doc__
-        assert re.search(r"array of (bool|uint8|int8|int64)", text) and "shape (" in text, name
+    shared = ("srs", "trs", "active", "action", "changed", "scores", "displacements", "rendered")
+    for owner, names in ((fv.Outcome, (*shared, "frame")), (fv.DecodedFrame, shared), (fv.ClipOutcome, (*shared, "time_us", "sent_bytes"))):
+        for name in names:
+            text = getattr(owner, name).__doc__
+            assert re.search(r"array of (bool|uint8|int8|int64)", text) and "shape (" in text, name
 
 
 def test_an_instance_has_no_attribute_without_documentation():

@@ -20,6 +20,22 @@ scores: np.ndarray = outcome.scores["edge"]
 for outcome in fv.simulate(["a.png", "b.png"], camera, max_frames=3, resize=(64, 48)):
     number: int = outcome.number
 rows: np.ndarray = fv.events([outcome])
+size: int = outcome.sent_bytes + outcome.sent_pixels
+packets: bytes = outcome.packets(scores=True)
+decoding = fv.decode(packets, camera)
+for frame in decoding:
+    moment: int = (frame.time_us or 0) + frame.number + len(frame.losses)
+    seen: int = int(frame.active.sum())
+kind: str = decoding.losses[0].kind
+colours: np.ndarray = outcome.overlay(np.zeros((8, 8), np.uint8))
+why: str = str(outcome.explain((0, 0))["rule"])
+edges: np.ndarray = outcome.boxes()
+found = outcome.detections()
+clip = camera.run([np.zeros((8, 8), np.uint8)], rendered=False, progress=True, max_frames=1)
+share: float = float(clip.active.mean()) + float(clip.scores["edge"].sum()) + len(clip)
+seconds: np.ndarray = clip.time_us / 1e6
+pixels: np.ndarray = fv.pixel_events(np.zeros((2, 8, 8), np.uint8), contrast=15, log=False)["x"]
+outcomes = list(fv.simulate(np.zeros((2, 8, 8), np.uint8)))
 timed = fv.TimedCamera(camera, clock_hz=100e6, sink_rate=(1, 4))
 clock: int = int(timed.step(np.zeros((8, 8), np.uint8), time_us=5)["clock"][0])
 rows = np.concatenate([timed.finish(), fv.clocks("scene:street", camera, sink_stalls=[[0, 2]], max_frames=3)])
@@ -37,6 +53,12 @@ WRONG = {
     "fv.simulate('a.mp4', frame_count=3)": "frame_count",
     "fv.TimedCamera(sink_rate=0.25)": "sink_rate",
     "x: str = fv.Design().columns": "columns|str",
+    "x: str = next(fv.simulate('a.mp4')).packets()": "bytes|str",
+    "fv.decode('packets.bin')": "decode",
+    "fv.Camera().run('a.mp4', keep=True)": "keep",
+    "fv.Camera().run('a.mp4').sent_bytes = 3": "read-only|sent_bytes",
+    "fv.pixel_events('a.mp4', contrast='much')": "contrast",
+    "next(fv.simulate('a.mp4')).explain(3)": "explain",
     "fv.Design().width = 3": "read-only|width",
     "fv.Registers.over_serial('paper', 'COM3')": "Port",
 }
@@ -82,10 +104,17 @@ def test_everything_public_has_its_documentation():
             continue
         assert inspect.getdoc(thing), name
     both = ["generate", "estimate", "registers"]
-    methods_of = {fv.Camera: ["step", "reset", *both], fv.TimedCamera: ["step", "finish", "reset"], fv.Design: ["toml", *both]}
+    methods_of = {
+        fv.Camera: ["step", "run", "reset", *both],
+        fv.Outcome: ["packets", "overlay", "explain", "boxes", "detections"],
+        fv.TimedCamera: ["step", "finish", "reset"],
+        fv.Design: ["toml", *both],
+    }
     for made, methods in methods_of.items():
         for method in methods:
             assert inspect.getdoc(getattr(made, method)), method
     made = [fv.Camera, fv.TimedCamera, fv.Design, fv.Registers]
-    for thing in (*made, fv.Camera.step, fv.TimedCamera.step, fv.simulate, fv.clocks, fv.events, fv.explain, fv.fidelity, fv.infer, fv.generate):
+    methods = [fv.Camera.step, fv.Camera.run, fv.TimedCamera.step, fv.Outcome.packets, fv.Outcome.overlay, fv.Outcome.explain]
+    functions = [fv.simulate, fv.clocks, fv.decode, fv.events, fv.explain, fv.fidelity, fv.infer, fv.generate, fv.pixel_events]
+    for thing in (*made, *methods, *functions):
         assert "Parameters\n----------" in inspect.getdoc(thing), thing

@@ -2,11 +2,8 @@
 //! A comparison of one camera with an ideal camera over one clip or data set, without a folder or a
 //! Pareto front.
 
-use std::path::PathBuf;
-
 use foveate_camera::CameraConfig;
 use foveate_fidelity::FidelityFigures;
-use foveate_footage::InputOptions;
 use foveate_playback::{ClipPlayer, RunClips, RunHooks, RunMonitor};
 
 use crate::ExploreError;
@@ -21,19 +18,18 @@ pub struct CameraComparison {
     pub problem: Option<String>,
 }
 
-/// Compares the camera `config` with the ideal camera of `ideal`.
+/// Compares the camera `config` with the ideal camera of `ideal` over the frames of a player, which
+/// was opened for `ideal`.
 ///
 /// # Errors
 /// Fails if the clip cannot be read, if a configuration is not valid for its frames, or if `hooks`
 /// cancels.
 pub fn compare(
-    inputs: &[PathBuf],
-    input: &InputOptions,
+    player: ClipPlayer,
     config: &CameraConfig,
     ideal: &CameraConfig,
     hooks: &dyn RunHooks,
 ) -> Result<CameraComparison, ExploreError> {
-    let player = ClipPlayer::open(inputs, ideal, input)?;
     let (width, height) = player.size();
     let camera = config.validate_for_frames(width, height)?;
     let monitor = &RunMonitor::of_frames(hooks, player.frames());

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The state of a camera: its engine, and the frames that it has taken.
+
+use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
+
+use foveate_design::{DesignConfig, RegionClass};
+use foveate_engine::{Engine, EngineError, EngineOptions};
+use foveate_frame::ByteFrame;
+use foveate_simulator::SentValues;
+use pyo3::exceptions::{PyRuntimeError, PyValueError};
+use pyo3::prelude::*;
+
+use crate::clock::StepClock;
+use crate::error::raise;
+use crate::frame::{check_size, design_of_size, rows};
+use crate::frame_record::RegionClasses;
+
+/// The engine for frames of the size of the first frame.
+pub(crate) struct SizedEngine {
+    /// The design of the engine, which outcomes share.
+    pub(crate) design: Arc<foveate_design::Design>,
+    pub(crate) engine: Engine,
+    /// The number of maps of classes that were set; 0 for that of the configuration.
+    maps_set: u64,
+}
+
+impl SizedEngine {
+    pub(crate) fn new(design: foveate_design::Design, threads: usize) -> PyResult<Self> {
+        let options = EngineOptions { threads, ..EngineOptions::default() };
+        let engine = Engine::with_options(&design, options).map_err(raise)?;
+        Ok(Self { design: Arc::new(design), engine, maps_set: 0 })
+    }
+
+    /// Returns the map of classes that the last frame used, of a design with zones.
+    pub(crate) fn classes(&self) -> Option<RegionClasses> {
+        self.design.zones()?;
+        Some(RegionClasses { map: self.engine.classes().to_vec(), maps_set: self.maps_set })
+    }
+
+    pub(crate) fn set_classes(&mut self, classes: &[RegionClass]) -> Result<(), EngineError> {
+        self.engine.set_classes(classes)?;
+        self.maps_set += 1;
+        Ok(())
+    }
+
+    /// Copies the values that the regions of the last frame send.
+    pub(crate) fn sent_values(&self) -> SentValues {
+        SentValues::of_engine(&self.engine)
+    }
+}
+
+/// The message of a camera that has no size yet.
+pub(crate) const NO_SIZE: &str = "this camera has no size yet: it takes that of its first frame, so show it one, or give the size, \
+                       frame={\"width\": 640, \"height\": 480}";
+
+/// The state of a camera.
+pub(crate) struct CameraState {
+    /// The engine, which is kept after a reset for frames of the same size.
+    pub(crate) sized_engine: Option<SizedEngine>,
+    /// Number of frames since the camera was made or reset.
+    pub(crate) frames: u64,
+    /// Number of frames in all, which says to which outcome the screen belongs.
+    pub(crate) steps: u64,
+    /// Times of the frames.
+    pub(crate) clock: StepClock,
+    /// The process to which the threads belong.
+    process: u32,
+    bytes: Vec<u8>,
+    words: Vec<u16>,
+}
+
+impl CameraState {
+    /// Makes the state of a camera that has seen no frame.
+    pub(crate) fn new() -> Self {
+        Self {
+            sized_engine: None,
+            frames: 0,
+            steps: 0,
+            clock: StepClock::default(),
+            process: std::process::id(),
+            bytes: Vec::new(),
+            words: Vec::new(),
+        }
+    }
+
+    /// Returns the engine of a camera, and makes it first if the configuration has the size of frames.
+    pub(crate) fn engine_of(
+        &mut self,
+        config: &DesignConfig,
+        threads: usize,
+    ) -> PyResult<&mut SizedEngine> {
+        if self.sized_engine.is_none() {
+            let frame = &config.camera.frame;
+            if frame.width.is_none() || frame.height.is_none() {
+                return Err(PyValueError::new_err(NO_SIZE));
+            }
+            let design = config.validate().map_err(raise)?;
+            self.sized_engine = Some(SizedEngine::new(design, threads)?);
+            self.process = std::process::id();
+        }
+        Ok(self.sized_engine.as_mut().expect("it has just been made"))
+    }
+
+    /// Returns the engine, if the frame of this step is the last one that it took. `what` names what is gone otherwise, and `name`
+    /// what reads it.
+    pub(crate) fn engine_after(&self, step: u64, what: &str, name: &str) -> PyResult<&SizedEngine> {
+        let own = self.sized_engine.as_ref().filter(|_| self.steps == step);
+        own.ok_or_else(|| {
+            PyRuntimeError::new_err(format!(
+                "this outcome's {what} gone, because the camera has taken another frame or was reset; read \
+                 outcome.{name} before the next step, or keep it with step(frame, keep=True)"
+            ))
+        })
+    }
+
+    /// Prepares the camera for a frame of this size, or refuses the frame.
+    pub(crate) fn fit(
+        &mut self,
+        config: &DesignConfig,
+        threads: usize,
+        size: (usize, usize),
+    ) -> PyResult<()> {
+        let own_size = self
+            .sized_engine
+            .as_ref()
+            .map(|own| (own.design.width() as usize, own.design.height() as usize));
+        if self.frames > 0 {
+            if threads != 1 && self.process != std::process::id() {
+                return Err(PyRuntimeError::new_err(
+                    "this camera has threads, which do not exist after a fork; make the camera in the new process",
+                ));
+            }
+            check_size(size, own_size.expect("it has seen a frame"))?;
+        } else if own_size != Some(size) || self.process != std::process::id() {
+            self.sized_engine = Some(SizedEngine::new(design_of_size(config, size)?, threads)?);
+            self.process = std::process::id();
+        }
+        Ok(())
+    }
+
+    /// Takes a frame of the size and depth of the engine.
+    pub(crate) fn take_frame(&mut self, frame: &ByteFrame) -> Result<(), EngineError> {
+        let own = self.sized_engine.as_mut().expect("made ready");
+        own.engine.step_byte_frame(frame)?;
+        self.count();
+        Ok(())
+    }
+
+    pub(crate) fn take_bytes(
+        &mut self,
+        view: &numpy::ndarray::ArrayView2<'_, u8>,
+    ) -> Result<(), EngineError> {
+        let Self { sized_engine, bytes, .. } = self;
+        let (pixels, stride) = rows(view, bytes);
+        sized_engine.as_mut().expect("made ready").engine.step_u8(pixels, stride)?;
+        self.count();
+        Ok(())
+    }
+
+    pub(crate) fn take_words(
+        &mut self,
+        view: &numpy::ndarray::ArrayView2<'_, u16>,
+    ) -> Result<(), EngineError> {
+        let Self { sized_engine, words, .. } = self;
+        let (pixels, stride) = rows(view, words);
+        sized_engine.as_mut().expect("made ready").engine.step_u16(pixels, stride)?;
+        self.count();
+        Ok(())
+    }
+
+    fn count(&mut self) {
+        self.frames += 1;
+        self.steps += 1;
+    }
+}
+
+/// Locks the state of a camera of this class, for one thread at a time.
+pub(crate) fn lock_camera<'a, T>(state: &'a Mutex<T>, class: &str) -> PyResult<MutexGuard<'a, T>> {
+    match state.try_lock() {
+        Ok(state) => Ok(state),
+        Err(TryLockError::Poisoned(poisoned)) => Ok(poisoned.into_inner()),
+        Err(TryLockError::WouldBlock) => Err(PyRuntimeError::new_err(format!(
+            "another thread is using this camera; give each thread a camera of its own, {class}(camera.design)"
+        ))),
+    }
+}
