@@ -13,6 +13,7 @@
 Every number is computed by the code of the command line, so the results are equal, bit by bit.
 """
 from foveate._clip import ClipOutcome
+from foveate._dsec import read_dsec, write_dsec
 from foveate._foveate import (
     Camera,
     DecodedFrame,
@@ -69,5 +70,7 @@ __all__ = [
     "luma",
     "pixel_events",
     "presets",
+    "read_dsec",
     "simulate",
+    "write_dsec",
 ]
