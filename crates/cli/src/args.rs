@@ -21,6 +21,7 @@ mod live;
 mod outputs;
 #[cfg(test)]
 mod page;
+mod pixel_event_format;
 mod process;
 mod stress;
 mod threads;

@@ -5,7 +5,7 @@ use std::io;
 
 use thiserror::Error;
 
-use crate::EvtVersion;
+use crate::EventFormat;
 
 /// An error of a file of an event camera.
 #[derive(Debug, Error)]
@@ -13,12 +13,12 @@ use crate::EvtVersion;
 pub enum EventFileError {
     /// The frame is too large for the coordinates of the format.
     #[error(
-        "{version} has coordinates of 11 bits, so it holds frames of at most 2048x2048 pixels; the frames have \
-         {width}x{height}"
+        "{format} holds frames of at most {limit}x{limit} pixels; the frames have {width}x{height}",
+        limit = .format.max_side()
     )]
     FrameTooLarge {
-        /// The version of the format.
-        version: EvtVersion,
+        /// The format.
+        format: EventFormat,
         /// The width of the frames in pixels.
         width: u32,
         /// The height of the frames in pixels.
@@ -46,6 +46,12 @@ pub enum EventFileError {
         /// The time of the event in microseconds.
         to_us: u64,
     },
+    /// The time of an event is too late for the format.
+    #[error("an event has the time {time_us} us, and AEDAT4 holds times of at most 2^63 - 1 us")]
+    TimeTooLate {
+        /// The time of the event in microseconds.
+        time_us: u64,
+    },
     /// The file cannot be read.
     #[error(transparent)]
     Io(#[from] io::Error),
@@ -58,7 +64,7 @@ pub enum EventFileError {
     /// The stream is damaged.
     #[error("at byte {at}: {problem}")]
     Stream {
-        /// The place of the word in the file, in bytes from 0.
+        /// The place of the word or the packet in the file, in bytes from 0.
         at: u64,
         /// The problem, as a sentence.
         problem: String,

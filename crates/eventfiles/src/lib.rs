@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Files of ordinary event cameras, whose pixels send events (x, y, t, p): [EVT 2.0] and [EVT 3.0] of
-//! Prophesee, which have the extension `.raw`.
+//! Prophesee, which have the extension `.raw`, and [AEDAT4] of iniVation, `.aedat4`.
 //!
-//! A file is a header of text lines and a stream of words, which state what changed since the last event.
-//! [`EvtEncoder`] makes such a stream, and [`EvtReader`] reads one. Coordinates have 11 bits. Times are in
-//! microseconds; their high part counts in a loop, so a reader follows the loops from the start of the file.
+//! [`EventEncoder`] makes the bytes of a file, and [`EventReader`] reads one, whose format it finds in the first
+//! bytes. Times are in microseconds. Neither holds more than a packet of a file in memory.
 //!
 //! [EVT 2.0]: https://docs.prophesee.ai/stable/data/encoding_formats/evt2.html
 //! [EVT 3.0]: https://docs.prophesee.ai/stable/data/encoding_formats/evt3.html
+//! [AEDAT4]: https://docs.inivation.com/software/software-advanced-usage/file-formats/aedat-4.0.html
 
+mod aedat4;
 mod encoder;
 mod error;
 mod event;
-mod evt2;
-mod evt3;
-mod header;
+mod evt;
+mod format;
+mod frame_size;
 mod reader;
-mod time_base;
 
-pub use encoder::EvtEncoder;
+pub use encoder::EventEncoder;
 pub use error::EventFileError;
-pub use event::{EvtVersion, PixelEvent};
-pub use reader::EvtReader;
+pub use event::PixelEvent;
+pub use format::EventFormat;
+pub use reader::{EventReader, is_event_file};

@@ -1,114 +1,83 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The reader of a file.
 
-use std::io::{BufRead, ErrorKind};
+use std::io::BufRead;
 
-use crate::evt2::Evt2Decoder;
-use crate::evt3::Evt3Decoder;
-use crate::header::EvtHeader;
-use crate::{EventFileError, EvtVersion, PixelEvent};
+use crate::aedat4::{self, Aedat4Reader};
+use crate::evt::{self, EvtReader};
+use crate::{EventFileError, EventFormat, PixelEvent};
 
 /// Reads the events of a file, in its order. After an error there are no more events.
 #[derive(Debug)]
-pub struct EvtReader<R> {
-    input: R,
-    version: EvtVersion,
-    size: Option<(u32, u32)>,
-    words: WordDecoder,
-    /// The place of the next word in the file, in bytes from 0.
-    at: u64,
+pub struct EventReader<R> {
+    reader: FormatReader<R>,
     is_done: bool,
 }
 
-#[derive(Clone, Debug)]
-enum WordDecoder {
-    Evt2(Evt2Decoder),
-    Evt3(Evt3Decoder),
+#[derive(Debug)]
+enum FormatReader<R> {
+    Evt(EvtReader<R>),
+    Aedat4(Aedat4Reader<R>),
 }
 
-impl<R: BufRead> EvtReader<R> {
-    /// Reads the header of a file.
+/// Returns true if a file with these first bytes, of which there is at least one, may be in a format of this crate.
+#[must_use]
+pub fn is_event_file(start: &[u8]) -> bool {
+    matches!(start.first(), Some(&(evt::HEADER_START | aedat4::HEADER_START)))
+}
+
+impl<R: BufRead> EventReader<R> {
+    /// Reads the header of a file, from which its format follows.
     ///
     /// # Errors
-    /// Fails if the file cannot be read, has no header, or has another format than EVT 2.0 or EVT 3.0 in little
-    /// endian.
+    /// Fails if the file cannot be read, has no header, or has another format than [`EventFormat::ALL`]; EVT is read
+    /// in little endian.
     pub fn open(mut input: R) -> Result<Self, EventFileError> {
-        let EvtHeader { version, size, bytes: at } = EvtHeader::read(&mut input)?;
-        let words = match version {
-            EvtVersion::Evt2 => WordDecoder::Evt2(Evt2Decoder::new()),
-            EvtVersion::Evt3 => WordDecoder::Evt3(Evt3Decoder::new()),
+        let reader = match input.fill_buf()?.first() {
+            Some(&evt::HEADER_START) => FormatReader::Evt(EvtReader::open(input)?),
+            Some(&aedat4::HEADER_START) => FormatReader::Aedat4(Aedat4Reader::open(input)?),
+            _ => {
+                let problem = "the file begins with no header of EVT 2.0, EVT 3.0 or AEDAT4";
+                return Err(EventFileError::Header { problem: problem.to_owned() });
+            }
         };
-        Ok(Self { input, version, size, words, at, is_done: false })
+        Ok(Self { reader, is_done: false })
     }
 
-    /// Returns the version of the format.
+    /// Returns the format.
     #[must_use]
-    pub fn version(&self) -> EvtVersion {
-        self.version
+    pub fn format(&self) -> EventFormat {
+        match &self.reader {
+            FormatReader::Evt(reader) => reader.version().format(),
+            FormatReader::Aedat4(_) => EventFormat::Aedat4,
+        }
     }
 
     /// Returns the width and height of the sensor in pixels, if the header has them.
     #[must_use]
     pub fn size(&self) -> Option<(u32, u32)> {
-        self.size
+        match &self.reader {
+            FormatReader::Evt(reader) => reader.size(),
+            FormatReader::Aedat4(reader) => reader.size(),
+        }
     }
 
     fn next_event(&mut self) -> Result<Option<PixelEvent>, EventFileError> {
-        loop {
-            let waiting = match &mut self.words {
-                WordDecoder::Evt2(_) => None,
-                WordDecoder::Evt3(decoder) => decoder.next_of_vector(),
-            };
-            if let Some(event) = waiting {
-                return self.checked(event).map(Some);
-            }
-            let Some(word) = self.next_word()? else { return Ok(None) };
-            let event = match &mut self.words {
-                WordDecoder::Evt2(decoder) => decoder.take(word),
-                WordDecoder::Evt3(decoder) => {
-                    decoder.take(u16::try_from(word).expect("it has 16 bits"))
-                }
-            };
-            if let Some(event) = event {
-                return self.checked(event).map(Some);
-            }
-        }
+        let (event, at) = match &mut self.reader {
+            FormatReader::Evt(reader) => (reader.next_event()?, reader.event_place()),
+            FormatReader::Aedat4(reader) => (reader.next_event()?, reader.event_place()),
+        };
+        event.map(|event| self.checked(event, at)).transpose()
     }
 
-    /// Returns the next word; `None` at the end of the file.
-    fn next_word(&mut self) -> Result<Option<u32>, EventFileError> {
-        let (mut bytes, length) = ([0; 4], self.version.word_bytes());
-        let mut found = 0;
-        while found < length {
-            match self.input.read(&mut bytes[found..length]) {
-                Ok(0) => break,
-                Ok(count) => found += count,
-                Err(error) if error.kind() == ErrorKind::Interrupted => {}
-                Err(error) => return Err(error.into()),
-            }
-        }
-        match found {
-            0 => Ok(None),
-            found if found < length => {
-                let problem =
-                    format!("the file ends within a word of {length} bytes; it may be cut off");
-                Err(EventFileError::Stream { at: self.at, problem })
-            }
-            _ => {
-                self.at += length as u64;
-                Ok(Some(u32::from_le_bytes(bytes)))
-            }
-        }
-    }
-
-    /// Refuses an event outside of the sensor.
-    fn checked(&self, event: PixelEvent) -> Result<PixelEvent, EventFileError> {
-        let (width, height) = self.size.unwrap_or((EvtVersion::MAX_SIDE, EvtVersion::MAX_SIDE));
+    /// Refuses an event outside of the sensor. It is `at` this place in the file.
+    fn checked(&self, event: PixelEvent, at: u64) -> Result<PixelEvent, EventFileError> {
+        let side = self.format().max_side();
+        let (width, height) = self.size().unwrap_or((side, side));
         let (x, y) = (u32::from(event.x), u32::from(event.y));
         if x < width && y < height {
             return Ok(event);
         }
-        let at = self.at - self.version.word_bytes() as u64;
         let problem = format!(
             "an event of pixel ({x}, {y}) is outside of the sensor, which has {width}x{height} pixels; the file \
              may be damaged"
@@ -117,7 +86,7 @@ impl<R: BufRead> EvtReader<R> {
     }
 }
 
-impl<R: BufRead> Iterator for EvtReader<R> {
+impl<R: BufRead> Iterator for EventReader<R> {
     type Item = Result<PixelEvent, EventFileError>;
 
     fn next(&mut self) -> Option<Self::Item> {

@@ -5,6 +5,8 @@ use clap::{Args, ValueEnum};
 use foveate_design::Decimal;
 use foveate_simulator::{EventTableOptions, PixelEventOptions, RunOptions};
 
+use super::pixel_event_format::{PixelEventFormat, PixelEventFormatParser};
+
 /// The options for what `simulate` and `decode` write in addition to arrays, frames.csv and
 /// summary.json.
 #[derive(Args, Debug)]
@@ -43,7 +45,7 @@ pub(crate) struct OutputArgs {
     #[arg(long, value_enum, value_name = "CONTENT", num_args = 0..=1, require_equals = true, default_missing_value = "plain")]
     pub(crate) packets: Option<PacketContent>,
     /// Write ordinary (x, y, t, p) events of the same frames; separate several formats with commas
-    #[arg(long, value_enum, value_name = "FORMATS", value_delimiter = ',', num_args = 0..=1, require_equals = true, default_missing_value = "npz")]
+    #[arg(long, value_parser = PixelEventFormatParser, value_name = "FORMATS", value_delimiter = ',', num_args = 0..=1, require_equals = true, default_missing_value = "npz")]
     pub(crate) pixel_events: Vec<PixelEventFormat>,
     /// Change of a pixel that makes a pixel event: in grey levels [default: temporal.level + 1], or
     /// in natural logarithms with --log [default: 0.2]
@@ -88,17 +90,6 @@ pub(crate) enum EventFilter {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
-pub(crate) enum PixelEventFormat {
-    /// Compressed arrays of NumPy, with the fields of tonic
-    Npz,
-    Csv,
-    /// EVT 2.0, for frames of at most 2048x2048 pixels
-    Evt2,
-    /// EVT 3.0, for frames of at most 2048x2048 pixels
-    Evt3,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
 pub(crate) enum PacketContent {
     /// Decisions, displacements, pixels and means
     Plain,
@@ -115,6 +106,7 @@ impl OutputArgs {
                 csv: self.pixel_events.contains(&PixelEventFormat::Csv),
                 evt2: self.pixel_events.contains(&PixelEventFormat::Evt2),
                 evt3: self.pixel_events.contains(&PixelEventFormat::Evt3),
+                aedat4: self.pixel_events.contains(&PixelEventFormat::Aedat4),
                 contrast: self.contrast,
                 is_logarithmic: self.log,
             },

@@ -30,6 +30,7 @@ fn every_option_writes_its_files_and_no_others() {
         (&["--pixel-events"], &["pixel_events.npz"]),
         (&["--pixel-events=csv,npz", "--log"], &["pixel_events.csv", "pixel_events.npz"]),
         (&["--pixel-events=evt2,evt3"], &["pixel_events_evt2.raw", "pixel_events_evt3.raw"]),
+        (&["--pixel-events=aedat4"], &["pixel_events.aedat4"]),
         (&["--pixel-events=csv", "--contrast", "2.5"], &["pixel_events.csv"]),
     ] {
         run_successfully(dir.path(), &[&simulate(options)[..], &["--force"]].concat());
@@ -41,6 +42,15 @@ fn every_option_writes_its_files_and_no_others() {
     assert!(!has(dir.path(), "rendered"));
     for name in ["overlay/000003.png", "heatmap_edge/000003.png", "heatmap_temporal/000000.png"] {
         assert!(has(dir.path(), name), "{name}");
+    }
+}
+
+#[test]
+fn hdf5_is_refused_with_the_way_to_it() {
+    let dir = tempfile::tempdir().unwrap();
+    for name in ["hdf5", "h5", "DSEC"] {
+        let option = format!("--pixel-events=npz,{name}");
+        expect_failure(dir.path(), 2, &simulate(&[&option]), &["HDF5", "npz", "write_dsec"]);
     }
 }
 

@@ -37,6 +37,8 @@ pub struct PixelEventOptions {
     pub evt2: bool,
     /// Writes `pixel_events_evt3.raw`, in EVT 3.0.
     pub evt3: bool,
+    /// Writes `pixel_events.aedat4`, in AEDAT4.
+    pub aedat4: bool,
     /// The change of a pixel that makes an event, in grey levels, or as a natural logarithm if
     /// `is_logarithmic` is set. The default is the smallest change that the camera's temporal score
     /// counts, or 0.2 if `is_logarithmic` is set.
@@ -122,6 +124,6 @@ impl PixelEventOptions {
     /// Returns true if a file of pixel events is written.
     #[must_use]
     pub fn is_wanted(self) -> bool {
-        self.npz || self.csv || self.evt2 || self.evt3
+        self.npz || self.csv || self.evt2 || self.evt3 || self.aedat4
     }
 }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The events of a pixel camera as files: NPZ with the fields that tonic uses, CSV, EVT 2.0 and EVT 3.0.
+//! The events of a pixel camera as files: NPZ with the fields that tonic uses, CSV, EVT 2.0,
+//! EVT 3.0 and AEDAT4.
 
 use std::fs::{self, File};
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use foveate_camera::Camera;
-use foveate_eventfiles::{EventFileError, EvtEncoder, EvtVersion};
+use foveate_eventfiles::{EventEncoder, EventFileError, EventFormat};
 
 use super::csv::CsvFile;
 use super::npz::NpzArchive;
@@ -29,9 +30,9 @@ pub(super) struct PixelEventFiles {
     bytes: Vec<u8>,
 }
 
-/// A file in EVT 2.0 or EVT 3.0.
+/// A file in a format of event cameras.
 struct EventStream {
-    encoder: EvtEncoder,
+    encoder: EventEncoder,
     file: GrowingFile,
 }
 
@@ -118,13 +119,14 @@ impl EventStream {
     ) -> Result<Vec<Self>, SimulatorError> {
         let size = (camera.width(), camera.height());
         let wanted = [
-            (options.evt2, EvtVersion::Evt2, "pixel_events_evt2.raw"),
-            (options.evt3, EvtVersion::Evt3, "pixel_events_evt3.raw"),
+            (options.evt2, EventFormat::Evt2, "pixel_events_evt2.raw"),
+            (options.evt3, EventFormat::Evt3, "pixel_events_evt3.raw"),
+            (options.aedat4, EventFormat::Aedat4, "pixel_events.aedat4"),
         ];
-        let create = |(_, version, name)| {
-            let (encoder, header) = EvtEncoder::new(version, size)?;
+        let create = |(_, format, name)| {
+            let (encoder, header) = EventEncoder::new(format, size)?;
             let mut file = GrowingFile::create(&folder.join(name))?;
-            file.append(header.as_bytes());
+            file.append(&header);
             Ok(Self { encoder, file })
         };
         wanted.into_iter().filter(|(is_wanted, ..)| *is_wanted).map(create).collect()

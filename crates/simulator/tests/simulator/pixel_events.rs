@@ -10,7 +10,7 @@ use std::path::Path;
 use crate::support::{NpyArray, STREET, design, frames, names, street};
 use flate2::read::DeflateDecoder;
 use foveate_design::Decimal;
-use foveate_eventfiles::{EvtReader, EvtVersion};
+use foveate_eventfiles::{EventFormat, EventReader};
 use foveate_footage::FrameRate;
 use foveate_frame::Frame;
 use foveate_simulator::{
@@ -180,6 +180,7 @@ fn all_files_hold_the_same_events_and_the_summary_counts_them() {
         csv: true,
         evt2: true,
         evt3: true,
+        aedat4: true,
         ..PixelEventOptions::default()
     };
     let summary = simulate(&output, &STREET, options);
@@ -208,13 +209,15 @@ fn all_files_hold_the_same_events_and_the_summary_counts_them() {
     let csv = fs::read_to_string(output.join("pixel_events.csv")).unwrap();
     let lines = events.iter().map(|(x, y, t, p)| format!("{x},{y},{t},{p}\n"));
     assert_eq!(csv, "x,y,t,p\n".to_owned() + &lines.collect::<String>());
-    for (file, version) in
-        [("pixel_events_evt2.raw", EvtVersion::Evt2), ("pixel_events_evt3.raw", EvtVersion::Evt3)]
-    {
+    for (file, format) in [
+        ("pixel_events_evt2.raw", EventFormat::Evt2),
+        ("pixel_events_evt3.raw", EventFormat::Evt3),
+        ("pixel_events.aedat4", EventFormat::Aedat4),
+    ] {
         let bytes = fs::read(output.join(file)).unwrap();
-        let reader = EvtReader::open(bytes.as_slice()).unwrap();
+        let reader = EventReader::open(bytes.as_slice()).unwrap();
         let design = design(&STREET);
-        assert_eq!(reader.version(), version);
+        assert_eq!(reader.format(), format);
         assert_eq!(reader.size(), Some((design.width(), design.height())));
         let read = reader.map(|event| {
             let event = event.unwrap();

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The file of a real event sensor: a table as CSV, or EVT 2.0 or EVT 3.0. All may be packed with gzip.
+//! The file of a real event sensor: a table as CSV, or EVT 2.0, EVT 3.0 or AEDAT4. All may be packed with
+//! gzip.
 
 use std::fs::File;
 use std::io::BufRead;
 use std::path::Path;
 
 use csv::{ErrorKind, ReaderBuilder, StringRecord, Trim};
-use foveate_eventfiles::EvtReader;
+use foveate_eventfiles::{EventReader, is_event_file};
 use foveate_reading::{table_reader, unpacked};
 use serde::Deserialize;
 
@@ -25,13 +26,13 @@ pub(super) struct SensorEvent {
 pub(super) fn read_sensor_events(path: &Path, take: impl FnMut(SensorEvent)) -> Result<(), String> {
     let input = File::open(path).and_then(unpacked);
     let mut input = input.map_err(|error| error.to_string())?;
-    // A header of EVT begins with `%`, and a table with the name of a column.
-    let first = input.fill_buf().map_err(|error| error.to_string())?.first();
-    if first == Some(&b'%') { read_stream(input, take) } else { read_table(input, take) }
+    let start = input.fill_buf().map_err(|error| error.to_string())?;
+    // A table begins with the name of a column.
+    if is_event_file(start) { read_stream(input, take) } else { read_table(input, take) }
 }
 
 fn read_stream(input: impl BufRead, mut take: impl FnMut(SensorEvent)) -> Result<(), String> {
-    let events = EvtReader::open(input).map_err(|error| error.to_string())?;
+    let events = EventReader::open(input).map_err(|error| error.to_string())?;
     for event in events {
         let event = event.map_err(|error| error.to_string())?;
         take(SensorEvent { t_us: event.time_us, x: event.x.into(), y: event.y.into() });

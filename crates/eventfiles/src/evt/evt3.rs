@@ -3,8 +3,8 @@
 //! of a vector or a part of the time, and the other fields keep their values. A vector has a bit for each of 12
 //! or 8 pixels in a row.
 
+use super::time_base::{TimeBaseDecoder, TimeBaseEncoder};
 use crate::PixelEvent;
-use crate::time_base::{TimeBaseDecoder, TimeBaseEncoder};
 
 /// The row of the following events.
 const ROW: u16 = 0x0;

@@ -3,8 +3,12 @@
 
 use std::io::{BufRead, Read as _};
 
-use crate::{EventFileError, EvtVersion};
+use super::version::EvtVersion;
+use crate::EventFileError;
+use crate::frame_size::check_frame_size;
 
+/// The first byte of every line, and so of a file.
+pub(crate) const HEADER_START: u8 = b'%';
 /// The largest header in bytes.
 const MAX_HEADER_BYTES: u64 = 1 << 16;
 
@@ -34,7 +38,7 @@ impl EvtHeader {
     /// Reads a header.
     pub(crate) fn read(input: &mut impl BufRead) -> Result<Self, EventFileError> {
         let (mut version, mut size, mut bytes) = (None, None, 0);
-        while input.fill_buf()?.first() == Some(&b'%') {
+        while input.fill_buf()?.first() == Some(&HEADER_START) {
             let mut line = Vec::new();
             let left = MAX_HEADER_BYTES.saturating_sub(bytes);
             input.by_ref().take(left).read_until(b'\n', &mut line)?;
@@ -60,12 +64,8 @@ impl EvtHeader {
         let version = version.ok_or_else(|| EventFileError::Header {
             problem: "there is no header with a line `% evt 2.0` or `% evt 3.0`".to_owned(),
         })?;
-        match size {
-            Some((width, height)) if width.max(height) > EvtVersion::MAX_SIDE => {
-                Err(EventFileError::FrameTooLarge { version, width, height })
-            }
-            _ => Ok(Self { version, size, bytes }),
-        }
+        size.map_or(Ok(()), |size| check_frame_size(version.format(), size))?;
+        Ok(Self { version, size, bytes })
     }
 }
 

@@ -2,8 +2,8 @@
 //! The words of EVT 2.0, which have 32 bits: the type in the highest four, and for an event the low six bits of
 //! its time, x and y with 11 bits each.
 
+use super::time_base::{TimeBaseDecoder, TimeBaseEncoder};
 use crate::PixelEvent;
-use crate::time_base::{TimeBaseDecoder, TimeBaseEncoder};
 
 /// An event of a pixel that became darker.
 const DARKER: u32 = 0x0;
