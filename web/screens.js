@@ -71,7 +71,7 @@ export class Screens {
     this.#arrows = document.createElement("canvas").getContext("2d");
     this.#arrows.canvas.className = "arrows";
     this.#outlines = document.createElement("canvas").getContext("2d");
-    this.#outlines.canvas.className = "arrows outlines";
+    this.#outlines.canvas.className = "outlines";
     this.#views.decisions.canvas.after(this.#outlines.canvas, this.#arrows.canvas);
     this.recolour();
     const legend = document.getElementById("legend");

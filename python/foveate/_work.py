@@ -25,6 +25,9 @@ Number = Union[int, float, str]
 Crop = tuple[int, int, int, int]
 Images = Literal["clip", "set", "cifar-sheet"]
 Luma = Literal["coded", "full"]
+Orientation = Literal["stored", "upright"]
+Bayer = Literal["rggb", "bggr", "grbg", "gbrg"]
+TimestampUnit = Literal["s", "ms", "us", "ns"]
 #: The type of a pixel event, that of tonic.
 _PIXEL_EVENT = np.dtype([("x", "<i2"), ("y", "<i2"), ("t", "<i8"), ("p", "?")])
 _Function = TypeVar("_Function", bound=Callable[..., Any])
@@ -59,6 +62,11 @@ def explain(
     crop: Crop | None = None,
     resize: tuple[int, int] | None = None,
     luma: Luma | None = None,
+    orientation: Orientation | None = None,
+    raw: str | None = None,
+    bayer: Bayer | None = None,
+    timestamps: PathLike | None = None,
+    timestamp_unit: TimestampUnit | None = None,
     images: Images | None = None,
     labels: PathLike | None = None,
 ) -> Explanation:
@@ -74,7 +82,7 @@ def explain(
         Number of the frame.
     region : (int, int), default (0, 0)
         Column and row of the region.
-    max_frames, input_fps, rate, start, end, crop, resize, luma, images, labels : optional
+    max_frames, input_fps, rate, start, end, crop, resize, luma, orientation, raw, bayer, timestamps, timestamp_unit, images, labels : optional
         How inputs are read, see ``simulate``.
 
     Returns
@@ -91,7 +99,8 @@ def explain(
     """
     values, text = _foveate.explain(
         inputs, camera, frame=frame, region=region, max_frames=max_frames, input_fps=input_fps, rate=rate, start=start, end=end,
-        crop=crop, resize=resize, luma=luma, images=images, labels=labels,
+        crop=crop, resize=resize, luma=luma, orientation=orientation, raw=raw, bayer=bayer,
+        timestamps=timestamps, timestamp_unit=timestamp_unit, images=images, labels=labels,
     )
     return Explanation(json.loads(values), text)
 
@@ -110,6 +119,11 @@ def fidelity(
     crop: Crop | None = None,
     resize: tuple[int, int] | None = None,
     luma: Luma | None = None,
+    orientation: Orientation | None = None,
+    raw: str | None = None,
+    bayer: Bayer | None = None,
+    timestamps: PathLike | None = None,
+    timestamp_unit: TimestampUnit | None = None,
     images: Images | None = None,
     labels: PathLike | None = None,
 ) -> Fidelity:
@@ -123,7 +137,7 @@ def fidelity(
         The design to measure.
     ideal : Camera, Design, preset, file or dict, optional
         The ideal design. The default is ``camera`` itself, so that only its rounding and its windows are measured.
-    max_frames, input_fps, rate, start, end, crop, resize, luma, images, labels : optional
+    max_frames, input_fps, rate, start, end, crop, resize, luma, orientation, raw, bayer, timestamps, timestamp_unit, images, labels : optional
         How inputs are read, see ``simulate``.
 
     Returns
@@ -134,7 +148,8 @@ def fidelity(
     """
     values, problem = _foveate.fidelity(
         inputs, camera, ideal=ideal, max_frames=max_frames, input_fps=input_fps, rate=rate, start=start, end=end, crop=crop,
-        resize=resize, luma=luma, images=images, labels=labels,
+        resize=resize, luma=luma, orientation=orientation, raw=raw, bayer=bayer,
+        timestamps=timestamps, timestamp_unit=timestamp_unit, images=images, labels=labels,
     )
     return Fidelity(json.loads(values), problem)
 
@@ -154,6 +169,11 @@ def pixel_events(
     crop: Crop | None = None,
     resize: tuple[int, int] | None = None,
     luma: Luma | None = None,
+    orientation: Orientation | None = None,
+    raw: str | None = None,
+    bayer: Bayer | None = None,
+    timestamps: PathLike | None = None,
+    timestamp_unit: TimestampUnit | None = None,
     images: Images | None = None,
     labels: PathLike | None = None,
 ) -> NDArray[np.void]:
@@ -171,7 +191,7 @@ def pixel_events(
         is ``temporal.level`` + 1, or 0.2 with ``log``.
     log : bool, default False
         Take the logarithms of pixels.
-    max_frames, input_fps, rate, start, end, crop, resize, luma, images, labels : optional
+    max_frames, input_fps, rate, start, end, crop, resize, luma, orientation, raw, bayer, timestamps, timestamp_unit, images, labels : optional
         How inputs are read, see ``simulate``. Frames from arrays have the times of ``rate`` (30 frames per second).
 
     Returns
@@ -197,7 +217,8 @@ def pixel_events(
     """
     records = _foveate.pixel_event_records(
         inputs, camera, contrast, log, max_frames=max_frames, input_fps=input_fps, rate=rate, start=start, end=end, crop=crop,
-        resize=resize, luma=luma, images=images, labels=labels,
+        resize=resize, luma=luma, orientation=orientation, raw=raw, bayer=bayer,
+        timestamps=timestamps, timestamp_unit=timestamp_unit, images=images, labels=labels,
     )
     return records.view(_PIXEL_EVENT)
 
@@ -286,6 +307,11 @@ def infer(
     crop: Crop | None = None,
     resize: tuple[int, int] | None = None,
     luma: Luma | None = None,
+    orientation: Orientation | None = None,
+    raw: str | None = None,
+    bayer: Bayer | None = None,
+    timestamps: PathLike | None = None,
+    timestamp_unit: TimestampUnit | None = None,
     images: Images | None = None,
     labels: PathLike | None = None,
 ) -> Inference:
@@ -330,7 +356,7 @@ def infer(
         Write the outputs that are pictures as image files, too.
     force : bool, default False
         Replace ``output`` if it holds a result.
-    max_frames, input_fps, rate, start, end, crop, resize, luma, images, labels : optional
+    max_frames, input_fps, rate, start, end, crop, resize, luma, orientation, raw, bayer, timestamps, timestamp_unit, images, labels : optional
         How inputs are read, see ``simulate``.
 
     Returns
@@ -350,7 +376,8 @@ def infer(
     options: dict[str, Any] = dict(
         mode=mode, tune=tune, reference=reference, accelerator=accelerator, mean=mean, scale=scale, framing=framing,
         whole_frames=whole_frames, noise=noise, every=every, detect=detect, boxes=boxes, pictures=pictures, force=force, max_frames=max_frames,
-        input_fps=input_fps, rate=rate, start=start, end=end, crop=crop, resize=resize, luma=luma, images=images, labels=labels,
+        input_fps=input_fps, rate=rate, start=start, end=end, crop=crop, resize=resize, luma=luma, orientation=orientation, raw=raw, bayer=bayer,
+        timestamps=timestamps, timestamp_unit=timestamp_unit, images=images, labels=labels,
     )
     if output is not None:
         return Inference(Path(output), json.loads(_foveate.infer(network, inputs, camera, output, **options)))

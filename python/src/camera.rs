@@ -293,7 +293,7 @@ impl Camera {
     ///     as many above 8 bits). Everything else needs 12 bytes per region and frame, and 8 more for each feature.
     /// progress : bool, optional
     ///     Show a line of progress on standard error. The default shows it on a terminal and in a notebook.
-    /// max_frames, input_fps, rate, start, end, crop, resize, luma, images, labels : optional
+    /// max_frames, input_fps, rate, start, end, crop, resize, luma, orientation, raw, bayer, timestamps, timestamp_unit, images, labels : optional
     ///     How inputs are read, see `foveate.simulate`. Frames from arrays have the times of `rate` (30 frames per second).
     ///
     /// Returns
@@ -327,7 +327,8 @@ impl Camera {
     #[pyo3(
         signature = (inputs, *, rendered=true, progress=None, **options),
         text_signature = "($self, inputs, *, rendered=True, progress=None, max_frames=None, input_fps=None, rate=None, start=None, end=None, \
-                          crop=None, resize=None, luma=None, images=None, labels=None)"
+                          crop=None, resize=None, luma=None, orientation=None, raw=None, bayer=None, \
+                      timestamps=None, timestamp_unit=None, images=None, labels=None)"
     )]
     fn run<'py>(
         slf: &Bound<'py, Self>,

@@ -165,6 +165,16 @@ impl RunState {
 ///     Scale every frame by area to this width and height, after cropping.
 /// luma : {"coded", "full"}, optional
 ///     The range of the luma of video: as it was coded (default), or expanded to all values.
+/// orientation : {"stored", "upright"}, optional
+///     Orientation of images and video: as they are stored (default), or upright, as their marks say.
+/// raw : str, optional
+///     Size and pixel format of raw video, such as "640x480,gray16le".
+/// bayer : {"rggb", "bggr", "grbg", "gbrg"}, optional
+///     Colours of the upper left 2x2 pixels of a mosaic, row by row.
+/// timestamps : path, optional
+///     File with the times of images or raw video, a line per frame.
+/// timestamp_unit : {"s", "ms", "us", "ns"}, optional
+///     Unit of these times (s).
 /// images : {"clip", "set", "cifar-sheet"}, optional
 ///     How image files are read: as frames of a clip (default), as unrelated images, or as sheets with an image per row.
 /// labels : path, optional
@@ -191,7 +201,8 @@ impl RunState {
 #[pyo3(
     signature = (inputs, camera=None, **options),
     text_signature = "(inputs, camera=None, *, max_frames=None, input_fps=None, rate=None, start=None, end=None, crop=None, \
-                      resize=None, luma=None, images=None, labels=None)"
+                      resize=None, luma=None, orientation=None, raw=None, bayer=None, \
+                      timestamps=None, timestamp_unit=None, images=None, labels=None)"
 )]
 pub(crate) fn simulate(
     py: Python<'_>,

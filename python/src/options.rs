@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Options by name: which of them a function has, and which one was probably meant by an unknown name.
 
-use foveate_footage::{CropRect, FrameRate, ImageRelation, InputOptions, LumaRange, parse_time};
+use foveate_footage::{
+    BayerPattern, CropRect, FrameRate, ImageRelation, InputOptions, LumaRange, Orientation,
+    RawLayout, TimestampUnit, TimestampsFile, parse_time,
+};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 /// The options of all functions that read footage, by their names on the command line.
-const INPUT: [&str; 10] = [
+const INPUT: [&str; 15] = [
     "max_frames",
     "input_fps",
     "rate",
@@ -16,6 +19,11 @@ const INPUT: [&str; 10] = [
     "crop",
     "resize",
     "luma",
+    "orientation",
+    "raw",
+    "bayer",
+    "timestamps",
+    "timestamp_unit",
     "images",
     "labels",
 ];
@@ -38,6 +46,11 @@ pub(crate) fn input_options(
         if !value.is_none() {
             set(&mut found, &name, &value)?;
         }
+    }
+    if found.timestamps.as_ref().is_some_and(|file| file.path.as_os_str().is_empty()) {
+        return Err(PyTypeError::new_err(format!(
+            "{function}: timestamp_unit is the unit of timestamps, which are not given"
+        )));
     }
     Ok(found)
 }
@@ -103,6 +116,32 @@ fn set(found: &mut InputOptions, name: &str, value: &Bound<'_, PyAny>) -> PyResu
                 "full" => LumaRange::Full,
                 _ => return Err(wrong("expected \"coded\" or \"full\"".into())),
             };
+        }
+        "orientation" => {
+            found.orientation = match text()?.as_str() {
+                "stored" => Orientation::Stored,
+                "upright" => Orientation::Upright,
+                _ => return Err(wrong("expected \"stored\" or \"upright\"".into())),
+            };
+        }
+        "raw" => found.raw = Some(RawLayout::parse(&text()?).map_err(wrong)?),
+        "bayer" => {
+            let name = text()?;
+            let pattern = BayerPattern::ALL.into_iter().find(|pattern| pattern.name() == name);
+            let names = "expected \"rggb\", \"bggr\", \"grbg\" or \"gbrg\"";
+            found.bayer = Some(pattern.ok_or_else(|| wrong(names.into()))?);
+        }
+        "timestamps" => {
+            let unit = found.timestamps.take().map(|file| file.unit).unwrap_or_default();
+            found.timestamps = Some(TimestampsFile { path: value.extract()?, unit });
+        }
+        "timestamp_unit" => {
+            let symbol = text()?;
+            let unit = TimestampUnit::ALL.into_iter().find(|unit| unit.symbol() == symbol);
+            let unit =
+                unit.ok_or_else(|| wrong("expected \"s\", \"ms\", \"us\" or \"ns\"".into()))?;
+            let path = found.timestamps.take().map(|file| file.path).unwrap_or_default();
+            found.timestamps = Some(TimestampsFile { path, unit });
         }
         "images" => {
             found.images = match text()?.as_str() {

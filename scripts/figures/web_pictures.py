@@ -20,6 +20,32 @@ IMAGES = Path(__file__).parents[2] / "docs/images"
 COLOURS = 160
 
 
+def save_phone(browser, address):
+    """Takes a picture of the page on a phone, in both schemes side by side."""
+    pictures = []
+    for scheme in ("light", "dark"):
+        page = open_page(browser, address, scheme, {"width": 390, "height": 844})
+        step_frames(page, 60)
+        page.evaluate("scrollTo(0, 0)")
+        pictures.append(Image.open(io.BytesIO(page.screenshot())))
+        page.close()
+    both = Image.new("RGB", (2 * 390 + 20, 844), "#808080")
+    for place, picture in enumerate(pictures):
+        both.paste(picture, (place * 410, 0))
+    data = io.BytesIO()
+    both.save(data, "png")
+    save("live-phone.png", data.getvalue())
+
+
+def open_page(browser, address, scheme, size):
+    """Opens the page, which stands still at its first frame."""
+    page = browser.new_page(viewport=size, color_scheme=scheme, reduced_motion="reduce")
+    page.goto(address)
+    while not page.evaluate("window.foveate?.sums.frames > 0"):
+        time.sleep(0.01)
+    return page
+
+
 def step_frames(page, count):
     """Steps a number of frames."""
     for number in range(count):
@@ -39,7 +65,7 @@ def save(name, data):
 def save_overview(page):
     """Takes a picture of the three screens and the controls."""
     step_frames(page, 60)
-    save("live.png", page.screenshot(clip={"x": 0, "y": 0, "width": 1280, "height": 880}))
+    save("live.png", page.screenshot())
 
 
 def save_large_regions(page):
@@ -48,7 +74,8 @@ def save_large_regions(page):
     page.keyboard.press("Tab")
     step_frames(page, 60)
     page.focus("[data-key='region.size'] input[type=range]")
-    save("live-regions.png", page.screenshot(clip={"x": 0, "y": 0, "width": 1280, "height": 880}))
+    page.evaluate("scrollTo(0, 0)")
+    save("live-regions.png", page.screenshot())
 
 
 def save_explanation(page):
@@ -71,13 +98,10 @@ def main():
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=["--no-sandbox", "--disable-gpu"])
         for make, fragment, scheme in ((save_overview, "", "light"), (save_large_regions, "", "dark"), (save_explanation, "#preset=paper", "light")):
-            size = {"width": 1280, "height": 900}
-            page = browser.new_page(viewport=size, color_scheme=scheme, reduced_motion="reduce")
-            page.goto(address + fragment)
-            while not page.evaluate("window.foveate?.sums.frames > 0"):
-                time.sleep(0.01)
+            page = open_page(browser, address + fragment, scheme, {"width": 1280, "height": 800})
             make(page)
             page.close()
+        save_phone(browser, address)
         browser.close()
 
 

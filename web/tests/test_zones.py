@@ -108,7 +108,7 @@ def test_the_keyboard_paints(still):
     page.focus("#decisions")
     for key in ("ArrowLeft", "ArrowLeft", "Enter", "ArrowUp", "Enter"):
         page.keyboard.press(key)
-    until(page, f"expected => JSON.stringify({MAP}) === JSON.stringify(expected)", rows({(9, 7): "1", (9, 6): "1"}))
+    until(page, f"expected => JSON.stringify({MAP}) === JSON.stringify(expected)", rows({(8, 7): "1", (8, 6): "1"}))
 
 
 def test_a_running_clip_goes_on_while_it_is_painted(opened):

@@ -146,7 +146,7 @@ impl DesignArgs {
     fn text(&self) -> Result<String, CliError> {
         Ok(match (&self.config, &self.preset) {
             (Some(file), _) => {
-                settings(file).map_err(CliError::io("read the configuration", file))?
+                settings(file).map_err(CliError::io("read the configuration", &named(file)))?
             }
             (None, Some(name)) => Preset::find(name)?.toml.to_owned(),
             (None, None) => String::new(),
@@ -157,8 +157,14 @@ impl DesignArgs {
     /// changes of `--set`, too.
     fn config_error(&self, text: &str, error: ConfigError) -> CliError {
         let alone = DesignConfig::from_toml(text).and_then(|config| config.validate());
-        CliError::Config { file: self.config.clone().filter(|_| alone.is_err()), error }
+        let file = self.config.as_deref().filter(|_| alone.is_err()).map(named);
+        CliError::Config { file, error }
     }
+}
+
+/// Returns the name of a configuration file in messages.
+fn named(file: &Path) -> PathBuf {
+    if file == Path::new("-") { "standard input".into() } else { file.to_owned() }
 }
 
 /// Returns the text of a configuration file. Standard input is read once, and its text is kept.

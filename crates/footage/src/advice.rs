@@ -8,9 +8,9 @@ use foveate_frame::Frame;
 
 use crate::extension::is_image_name;
 use crate::input::{
-    EntryKind, SequenceName, SkippedInput, collect_skipped_of_clip, collect_skipped_of_set,
-    entries, entry_kind, expand, find_same_number, is_non_file_source, is_pattern, skip_sentences,
-    skipped_by_pattern, skipped_of_zip,
+    EntryKind, SkippedInput, collect_skipped_of_clip, collect_skipped_of_set, entries, entry_kind,
+    expand, find_same_number, image_names_of_zip, is_non_file_source, is_pattern, sequence_of,
+    skip_sentences, skipped_by_pattern, skipped_of_zip,
 };
 use crate::plan::tree;
 use crate::sets::{cifar, idx};
@@ -22,6 +22,10 @@ use crate::{ImageRelation, InputOptions, picture};
 #[must_use]
 pub fn input_warnings<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Vec<String> {
     let mut said = Vec::new();
+    // Raw video may have any name and any content.
+    if options.raw.is_some() {
+        return said;
+    }
     for input in inputs.iter().map(AsRef::as_ref).filter(|input| !is_non_file_source(input)) {
         said.extend(skip_sentences(input, &skipped_of(input, options.images)));
         let files = expand(input, options.images).unwrap_or_default();
@@ -59,13 +63,11 @@ fn skipped_of(input: &Path, images: ImageRelation) -> Vec<SkippedInput> {
             _ => found = tree(input).map(|tree| tree.skipped).unwrap_or_default(),
         }
     } else if input.exists() {
-        found = skipped_of_zip(input);
-    } else if let Some(text) = input.to_str() {
-        match SequenceName::parse(text) {
-            _ if is_pattern(text) => found = skipped_by_pattern(text),
-            Some(name) => found = name.gaps(),
-            None => {}
-        }
+        found = skipped_of_zip(input, images);
+    } else if let Some((_, name)) = sequence_of(input) {
+        found = name.gaps();
+    } else if let Some(text) = input.to_str().filter(|text| is_pattern(text)) {
+        found = skipped_by_pattern(text);
     }
     found
 }
@@ -80,7 +82,14 @@ pub fn skipped_in_words<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) ->
 
 /// Warns of two frames of a clip that have the same number.
 fn duplicate_number_warning(files: &[ImageFile], images: ImageRelation) -> Option<String> {
-    let paths: Vec<&Path> = files.iter().map(|file| file.path.as_path()).collect();
+    let archived: Vec<_> = match files {
+        [archive] => image_names_of_zip(&archive.path, images),
+        _ => Vec::new(),
+    };
+    let paths: Vec<&Path> = match archived.is_empty() {
+        true => files.iter().map(|file| file.path.as_path()).collect(),
+        false => archived.iter().map(|path| &**path).collect(),
+    };
     let (one, other) = find_same_number(&paths).filter(|_| images == ImageRelation::Clip)?;
     Some(format!(
         "`{}` and `{}` have the same number, and both are read, one after the other; remove one if they are the \

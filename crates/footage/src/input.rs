@@ -18,8 +18,8 @@ mod zip_listing;
 use self::zip_feed::ZipImages;
 pub(crate) use content_kind::unread_image_type_by_content;
 pub(crate) use entry::{EntryKind, entries, entry_kind};
-pub(crate) use expansion::expand;
 pub use expansion::matched_images;
+pub(crate) use expansion::{expand, sequence_of};
 pub(crate) use pattern::{is_pattern, skipped_by_pattern};
 pub(crate) use sequence::SequenceName;
 pub use skip_reason::{SkipReason, SkippedInput};
@@ -27,12 +27,13 @@ pub(crate) use skip_reason::{find_same_number, skip_sentences};
 pub(crate) use skipped_entries::{
     collect_skipped_of_clip, collect_skipped_of_set, skipped_folder, unreadable_entry,
 };
-pub(crate) use zip_listing::skipped_of_zip;
+pub(crate) use zip_listing::{image_names_of_zip, skipped_of_zip};
 
 use std::io::{BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
 use foveate_camera::CameraConfig;
+use foveate_reading::unpacked;
 use foveate_scenes::{Scene, SceneParameters};
 use foveate_toolchain::{Interrupt, InterruptibleReader, standard_input};
 
@@ -74,7 +75,7 @@ pub fn open<P: AsRef<Path>>(
         return Err(FootageError::Option { option: "--bayer", problem });
     }
     let feed = match &options.timestamps {
-        Some(file) => Box::new(TimestampedFeed::new(feed, file.clone())?),
+        Some(file) => Box::new(TimestampedFeed::new(feed, file.clone(), &options.interrupt)?),
         None => feed,
     };
     let names = inputs.iter().map(|input| input_without_secrets(input)).collect();
@@ -184,6 +185,10 @@ fn open_stream(
     options: &InputOptions,
 ) -> Result<StreamFeed<Y4mFormat>, FootageError> {
     let (name, stream) = open_once(input, &options.interrupt)?;
+    let stream = unpacked(stream).map_err(|error| match options.interrupt.is_set() {
+        true => FootageError::Interrupted,
+        false => FootageError::Y4m { name: name.clone(), problem: error.to_string() },
+    })?;
     open_y4m(name, stream, bits, options)
 }
 
@@ -273,28 +278,32 @@ fn open_scene(
     Ok(Box::new(SceneFeed::new(scene, size, options.frame_rate)))
 }
 
-/// Opens raw video from one file or pipe.
+/// Opens raw video from one file or pipe. Only a name that ends with `.gz` says that a file is gzipped, because pixels
+/// may begin as a gzipped file does.
 fn open_raw_input(
     inputs: &[&Path],
     layout: RawLayout,
     bits: u32,
     options: &InputOptions,
 ) -> Result<Box<dyn FrameFeed>, FootageError> {
-    let refused = |problem: String| FootageError::Option { option: "--raw", problem };
+    let refused = |shown: &str| FootageError::Option {
+        option: "--raw",
+        problem: format!(
+            "raw video is one file, pipe or `-`, and `{shown}` is not; leave the option out"
+        ),
+    };
     let [input] = inputs else {
-        return Err(refused(format!(
-            "raw video is one file, pipe or `-`, but {} inputs are given",
-            inputs.len()
-        )));
+        let shown: Vec<String> = inputs.iter().map(|input| input_without_secrets(input)).collect();
+        return Err(refused(&shown.join(", ")));
     };
     let shown = input_without_secrets(input);
     if let Some(labels) = &options.labels {
         return Err(labels_without_images(labels));
     }
-    if strip_prefix_of("scene:", input).is_some() || is_camera(input) || input.is_dir() {
-        return Err(refused(format!(
-            "`{shown}` is not a file or a pipe of raw video; leave the option out"
-        )));
+    let is_name = |text: &str| is_pattern(text) || SequenceName::parse(text).is_some();
+    let is_other = strip_prefix_of("scene:", input).is_some() || is_camera(input) || input.is_dir();
+    if is_other || (!input.exists() && input.to_str().is_some_and(is_name)) {
+        return Err(refused(&shown));
     }
     if *input == Path::new("-") || is_pipe(input) {
         let (name, stream) = open_once(input, &options.interrupt)?;
@@ -303,6 +312,19 @@ fn open_raw_input(
     if !input.exists() {
         return Err(FootageError::Missing { path: shown.into() });
     }
-    let stream = open_unpacked(input)?;
-    Ok(Box::new(open_raw(shown, Some(input), stream, layout, bits, options)?))
+    if has_gzip_name(input) {
+        let stream = open_unpacked(input)?;
+        return Ok(Box::new(open_raw(shown, None, stream, layout, bits, options)?));
+    }
+    let file = std::fs::File::open(input).map_err(|error| FootageError::Unreadable {
+        path: input.to_path_buf(),
+        problem: error.to_string(),
+    })?;
+    let length = file.metadata().ok().map(|known| known.len());
+    let stream = Box::new(BufReader::new(file));
+    Ok(Box::new(open_raw(shown, length, stream, layout, bits, options)?))
+}
+
+fn has_gzip_name(path: &Path) -> bool {
+    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gz"))
 }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Raw video, in which frames follow one another without headers. The user gives their size and
-//! pixel format. The stream comes from a file, which may be gzipped, or from a pipe.
+//! pixel format. The stream comes from a file or a pipe.
 
 use std::io::BufRead;
-use std::path::Path;
 
 use foveate_frame::ByteFrame;
 
@@ -20,38 +19,45 @@ pub(crate) struct RawVideo {
     bits: u32,
 }
 
-/// Opens raw video. `path` is its file, unless it comes from a pipe.
+/// Opens raw video. `length` is the number of its bytes, if it is known.
 ///
 /// # Errors
 /// Fails if the options ask for a mosaic, but the pixels have colours.
 pub(crate) fn open_raw(
     name: String,
-    path: Option<&Path>,
+    length: Option<u64>,
     input: Box<dyn BufRead + Send>,
     layout: RawLayout,
     bits: u32,
     options: &InputOptions,
 ) -> Result<StreamFeed<RawVideo>, FootageError> {
     let &InputOptions { frame_rate, luma, bayer, ref interrupt, .. } = options;
-    if bayer.is_some() && !(layout.is_grey() && layout.has_sides(MIN_MOSAIC_SIDE)) {
-        let problem = format!(
-            "the pixels of a mosaic are grey, and its frames have at least {MIN_MOSAIC_SIDE}x{MIN_MOSAIC_SIDE} of them; \
-             give a format of --raw such as gray or gray12le"
-        );
-        return Err(FootageError::Option { option: "--bayer", problem });
+    if bayer.is_some() {
+        check_mosaic(layout)
+            .map_err(|problem| FootageError::Option { option: "--bayer", problem })?;
     }
     let format = RawVideo { layout, luma, bayer, bits };
     let feed = StreamFeed::new(name, input, format, frame_rate, interrupt.clone());
-    // The length of a gzipped file says nothing about its frames.
-    let length = path.filter(|path| !is_packed(path)).and_then(|path| path.metadata().ok());
     Ok(match length {
-        Some(known) => feed.with_total(known.len() / layout.frame_bytes()),
+        Some(length) => feed.with_total(length / layout.frame_bytes()),
         None => feed,
     })
 }
 
-fn is_packed(path: &Path) -> bool {
-    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gz"))
+/// Returns a text that says why frames of a layout cannot be mosaics.
+fn check_mosaic(layout: RawLayout) -> Result<(), String> {
+    if !layout.is_grey() {
+        return Err(
+            "the pixels of a mosaic are grey; give a format of --raw such as gray or gray12le"
+                .to_owned(),
+        );
+    }
+    if !layout.has_sides(MIN_MOSAIC_SIDE) {
+        return Err(format!(
+            "frames of a mosaic have at least {MIN_MOSAIC_SIDE}x{MIN_MOSAIC_SIDE} pixels; check the size that --raw gives"
+        ));
+    }
+    Ok(())
 }
 
 impl StreamFormat for RawVideo {
@@ -83,7 +89,7 @@ impl StreamFormat for RawVideo {
     }
 
     fn luma(&self) -> Option<LumaRange> {
-        (!self.layout.is_grey()).then_some(self.luma)
+        self.layout.has_video_luma().then_some(self.luma)
     }
 
     fn takes_timestamps(&self) -> bool {

@@ -89,7 +89,10 @@ impl RawLayout {
         let (size, name) = text
             .split_once(',')
             .ok_or("expected a size and a pixel format, for example 640x480,gray16le")?;
-        let side = |part: &str| part.parse().ok().filter(|side| (1..=MAX_SIDE).contains(side));
+        let is_number = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit());
+        let side = |part: &str| {
+            part.parse().ok().filter(|side| is_number(part) && (1..=MAX_SIDE).contains(side))
+        };
         let size = size.split_once('x').and_then(|(width, height)| side(width).zip(side(height)));
         let (width, height) = size.ok_or_else(|| {
             format!("the size is WIDTHxHEIGHT, each 1 to {MAX_SIDE}, for example 640x480,gray16le")
@@ -108,6 +111,14 @@ impl RawLayout {
     /// Returns true if the pixels are single samples, as those of a mosaic.
     pub(crate) fn is_grey(self) -> bool {
         self.format.order == SampleOrder::Grey
+    }
+
+    /// Returns true if the pixels are luma and colours of video, so that their luma may have a narrow range.
+    pub(crate) fn has_video_luma(self) -> bool {
+        match self.format.order {
+            SampleOrder::Grey | SampleOrder::Colours { .. } => false,
+            SampleOrder::Planes { .. } | SampleOrder::Pairs { .. } => true,
+        }
     }
 
     /// Returns true if both sides have at least `side` pixels.
@@ -148,15 +159,10 @@ impl RawLayout {
     /// Returns the layout of the samples that [`sorted`](Self::sorted) leaves. Luma of video with colours is
     /// expanded if `is_full`.
     pub(crate) fn samples(self, is_full: bool) -> SampleLayout {
-        let (is_colour, is_video) = match self.format.order {
-            SampleOrder::Grey => (false, false),
-            SampleOrder::Planes { .. } | SampleOrder::Pairs { .. } => (false, true),
-            SampleOrder::Colours { .. } => (true, false),
-        };
         SampleLayout {
-            is_colour,
+            is_colour: !self.is_grey() && !self.has_video_luma(),
             is_big_endian: self.format.is_big_endian,
-            is_expanded: is_full && is_video,
+            is_expanded: is_full && self.has_video_luma(),
             ..SampleLayout::luma(self.width, self.height, self.format.depth)
         }
     }

@@ -19,17 +19,16 @@ pub(crate) fn open_unpacked(path: &Path) -> Result<Box<dyn BufRead + Send>, Foot
     unpacked(File::open(path).map_err(unreadable(path))?).map_err(unreadable(path))
 }
 
-/// Opens a FIFO or another pipe that can be read once, and unpacks it if it is gzipped.
+/// Opens a FIFO or another pipe that can be read once.
 pub(crate) fn open_pipe(
     path: &Path,
     interrupt: &Interrupt,
 ) -> Result<Box<dyn BufRead + Send>, FootageError> {
-    let pipe = open_interruptibly(path, interrupt)
-        .and_then(|pipe| unpacked(InterruptibleReader::new(pipe, interrupt)));
-    pipe.map_err(|error| match interrupt.is_set() {
-        true => FootageError::Interrupted,
-        false => unreadable(path)(error),
-    })
+    match open_interruptibly(path, interrupt) {
+        Ok(pipe) => Ok(Box::new(BufReader::new(InterruptibleReader::new(pipe, interrupt)))),
+        Err(_) if interrupt.is_set() => Err(FootageError::Interrupted),
+        Err(error) => Err(unreadable(path)(error)),
+    }
 }
 
 /// Returns true if a file is gzipped.

@@ -2,17 +2,22 @@
 //! Times that a file gives to frames without times of their own, such as images.
 //!
 //! A line has the time of a frame, as a decimal number. The name of the frame's file may follow or
-//! precede it, separated by white space or a comma. Empty lines and lines that begin with `#` are ignored.
+//! precede it, separated by a comma or by white space. Empty lines and lines that begin with `#` are ignored.
 
-use std::io;
+use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
-use foveate_reading::read_text;
+use foveate_reading::LimitedReader;
+use foveate_toolchain::{Interrupt, InterruptibleReader, open_interruptibly};
 
 use crate::FootageError;
 
 /// The largest file of times in bytes.
-const MAX_BYTES: u64 = 1 << 28;
+const MAX_BYTES: u64 = 1 << 26;
+/// The longest time between the first frame and the last in ns, ten years. More is most likely another unit.
+const MAX_SPAN_NS: i128 = 3653 * 24 * 3600 * 1_000_000_000;
+/// The largest number of characters of a line in messages.
+const MAX_SHOWN: usize = 60;
 
 /// The unit of the times in a file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -76,9 +81,12 @@ pub(crate) struct TimestampEntry {
 
 impl TimestampsFile {
     /// Reads the entries. Their times are counted from the first.
-    pub(crate) fn read(&self) -> Result<Vec<TimestampEntry>, FootageError> {
-        let text = read_text(&self.path, MAX_BYTES)
-            .map_err(|error: io::Error| self.refused(error.to_string()))?;
+    pub(crate) fn read(&self, interrupt: &Interrupt) -> Result<Vec<TimestampEntry>, FootageError> {
+        let text = self.text(interrupt).map_err(|error| match interrupt.is_set() {
+            true => FootageError::Interrupted,
+            false => self.refused(error.to_string()),
+        })?;
+        let text = text.strip_prefix('\u{FEFF}').unwrap_or(&text);
         let mut entries: Vec<TimestampEntry> = Vec::new();
         let mut first_ns = None;
         for (number, line) in text.lines().enumerate() {
@@ -89,6 +97,12 @@ impl TimestampsFile {
             let (time_ns, name) = parse_line(line, self.unit)
                 .map_err(|problem| self.refused(format!("line {}: {problem}", number + 1)))?;
             let since_ns = time_ns - *first_ns.get_or_insert(time_ns);
+            if since_ns > MAX_SPAN_NS {
+                return Err(self.refused(format!(
+                    "line {}: the time is more than ten years after the first; --timestamp-unit names the unit",
+                    number + 1
+                )));
+            }
             let time_us = u64::try_from((since_ns + 500).div_euclid(1000)).ok();
             let after = |last: &TimestampEntry| time_us.is_some_and(|time| time > last.time_us);
             if !entries.last().is_none_or(after) {
@@ -107,6 +121,13 @@ impl TimestampsFile {
         Ok(entries)
     }
 
+    fn text(&self, interrupt: &Interrupt) -> io::Result<String> {
+        let file = InterruptibleReader::new(open_interruptibly(&self.path, interrupt)?, interrupt);
+        let mut text = String::new();
+        LimitedReader::new(file, MAX_BYTES).read_to_string(&mut text)?;
+        Ok(text)
+    }
+
     /// Returns the error for this file.
     pub(crate) fn refused(&self, problem: String) -> FootageError {
         FootageError::Timestamps { path: self.path.clone(), problem }
@@ -115,54 +136,61 @@ impl TimestampsFile {
 
 /// Returns the time of a line in nanoseconds, and the name beside it.
 fn parse_line(line: &str, unit: TimestampUnit) -> Result<(i128, Option<String>), String> {
-    let parts: Vec<&str> = line
-        .split(|c: char| c.is_whitespace() || c == ',')
-        .filter(|part| !part.is_empty())
-        .collect();
-    let time_of = |text: &str| parse_time_ns(text, unit);
+    let halves =
+        |pair: Option<(&str, &str)>| pair.map(|(a, b)| (a.trim().to_owned(), b.trim().to_owned()));
+    let separator = if line.contains(',') { |c: char| c == ',' } else { char::is_whitespace };
+    let (first, last) = (halves(line.split_once(separator)), halves(line.rsplit_once(separator)));
+    let (Some((time, name)), Some((other_name, other_time))) = (first, last) else {
+        return parse_time_ns(line, unit).map(|time| (time, None));
+    };
     let named = |time: i128, name: &str| {
         let name = Path::new(name).file_name().map(|name| name.to_string_lossy().into_owned());
-        Ok((time, name))
+        (time, name)
     };
-    match parts.as_slice() {
-        [one] => time_of(one).map(|time| (time, None)),
-        [one, other] => match (time_of(one), time_of(other)) {
-            (Ok(time), _) => named(time, other),
-            (Err(_), Ok(time)) => named(time, one),
-            (Err(problem), Err(_)) => Err(problem),
-        },
-        _ => Err("a line has a time, and perhaps the name of a file".to_owned()),
+    match (parse_time_ns(&time, unit), parse_time_ns(&other_time, unit)) {
+        (Ok(_), Ok(_)) => {
+            Err("there are two numbers; a line has one time, with a decimal point".to_owned())
+        }
+        (Ok(time), Err(_)) => Ok(named(time, &name)),
+        (Err(_), Ok(time)) => Ok(named(time, &other_name)),
+        (Err(problem), Err(_)) => Err(problem),
     }
 }
 
 /// Parses a decimal number of a unit as nanoseconds. Digits below a nanosecond are left out.
 fn parse_time_ns(text: &str, unit: TimestampUnit) -> Result<i128, String> {
     let symbol = unit.symbol();
+    let shown: String = text.chars().take(MAX_SHOWN).collect();
     let wrong = || {
         format!(
-            "`{text}` is not a time in {symbol}, a decimal number such as 12.5; --timestamp-unit names the unit"
+            "`{shown}` is not a time in {symbol}, a decimal number such as 12.5; --timestamp-unit names the unit"
         )
     };
-    let (is_negative, number) = match text.strip_prefix('-') {
-        Some(rest) => (true, rest),
-        None => (false, text),
+    // A number with an exponent has no more digits than a floating-point number.
+    let plain = match text.contains(['e', 'E']) {
+        true => format!(
+            "{:.9}",
+            text.parse::<f64>().ok().filter(|time| time.is_finite()).ok_or_else(wrong)?
+        ),
+        false => text.to_owned(),
     };
+    let number = plain.strip_prefix(['-', '+']).unwrap_or(&plain);
     let (whole, fraction) = number.split_once('.').unwrap_or((number, ""));
     let is_number = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit());
     if !is_number(whole) || !is_number(fraction) || whole.len() + fraction.len() == 0 {
         return Err(wrong());
     }
-    // A time of a clock, such as nanoseconds since 1970, has 19 digits.
     let digits = 9 - unit.decimals();
     let fraction = &fraction[..fraction.len().min(digits)];
-    let nanoseconds: i128 = format!("{whole}{fraction:0<digits$}")
+    // A time of a clock, such as nanoseconds since 1970, has 19 digits.
+    let nanoseconds: i128 = format!("0{whole}{fraction:0<digits$}")
         .parse()
         .ok()
         .filter(|&time: &i128| time < i128::from(i64::MAX))
         .ok_or_else(|| {
-            format!("`{text}` {symbol} is too large for a time; --timestamp-unit names the unit")
+            format!("`{shown}` {symbol} is too large for a time; --timestamp-unit names the unit")
         })?;
-    Ok(if is_negative { -nanoseconds } else { nanoseconds })
+    Ok(if plain.starts_with('-') { -nanoseconds } else { nanoseconds })
 }
 
 #[cfg(test)]
@@ -173,7 +201,9 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("times.txt");
         std::fs::write(&path, text).unwrap();
-        let entries = TimestampsFile { path, unit }.read().map_err(|error| error.to_string())?;
+        let entries = TimestampsFile { path, unit }
+            .read(&Interrupt::default())
+            .map_err(|error| error.to_string())?;
         Ok(entries.into_iter().map(|entry| (entry.time_us, entry.name)).collect())
     }
 
@@ -188,6 +218,7 @@ mod tests {
             ("1305031102.1\n1305031102.133333\n1305031102.166667", TimestampUnit::Seconds),
             ("-33.333\r\n0\r\n33.3337\r\n", TimestampUnit::Milliseconds),
             ("10000\n43333\n76667\n", TimestampUnit::Microseconds),
+            ("\u{FEFF}+1.0e+00\n1.033333e+00\n1.066666666e0\n", TimestampUnit::Seconds),
             (
                 "1403636579763555584\n1403636579796888584\n1403636579830222084",
                 TimestampUnit::Nanoseconds,
@@ -215,9 +246,12 @@ mod tests {
             ("0\n1\n1\n", "line 3: the time is not later"),
             ("0\n1\n0.5\n", "line 3: the time is not later"),
             ("time\n0\n", "line 1: `time` is not a time in s"),
-            ("0\n1e3\n", "line 2: `1e3` is not a time in s"),
+            ("0\n1e\n", "line 2: `1e` is not a time in s"),
+            ("0\n1e999\n", "line 2: `1e999` is not a time in s"),
+            ("0\n1,5\n", "line 2: there are two numbers; a line has one time"),
+            ("0\n400000000\n", "more than ten years after the first; --timestamp-unit"),
             ("1403636579763555584\n", "too large for a time; --timestamp-unit"),
-            ("0 a b\n", "line 1: a line has a time"),
+            ("a 0 b\n", "line 1: `a` is not a time"),
             (".\n", "line 1: `.` is not a time"),
         ] {
             let error = read(text, TimestampUnit::Seconds).unwrap_err();

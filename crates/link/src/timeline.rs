@@ -41,7 +41,8 @@ impl Timeline {
         let (span, intervals) = (u128::from(last - first), u128::from(frames - 1));
         let duration = (span * (intervals + 1) + intervals / 2) / intervals;
         let duration = u64::try_from(duration).unwrap_or(u64::MAX);
-        let starts: Vec<u64> = times_us.iter().map(|time| (time - first) * NS_PER_US).collect();
+        let starts: Vec<u64> =
+            times_us.iter().map(|time| (time - first).saturating_mul(NS_PER_US)).collect();
         Ok(Self { starts, end: duration.saturating_mul(NS_PER_US), rows: rows.into() })
     }
 
@@ -63,7 +64,7 @@ impl Timeline {
     pub fn start_ns(&self, frame: u64) -> u64 {
         match self.starts.get(usize::try_from(frame).unwrap_or(usize::MAX)) {
             Some(&start) => start,
-            None => self.end + scaled(self.end, frame - self.frames(), self.frames()),
+            None => self.end.saturating_add(scaled(self.end, frame - self.frames(), self.frames())),
         }
     }
 

@@ -22,7 +22,7 @@ pub(crate) struct InputArgs {
     /// Take at most this many frames of every clip; a scene has exactly this many
     #[arg(long, visible_alias = "frames", value_name = "N", value_parser = at_least_one())]
     pub(crate) max_frames: Option<u32>,
-    /// Frame rate of images, which have no times of their own
+    /// Frame rate of images and of raw video, which have no times of their own
     #[arg(long, value_name = "RATE", default_value = "30", value_parser = FrameRate::parse)]
     pub(crate) rate: FrameRate,
     /// Skip frames before this time: seconds, or HH:MM:SS
@@ -52,7 +52,7 @@ pub(crate) struct InputArgs {
     /// mosaics of a Bayer filter
     #[arg(long, value_enum, value_name = "PATTERN")]
     pub(crate) bayer: Option<BayerChoice>,
-    /// File with the times of images or of raw video, one line per frame
+    /// File with the times of images or of raw video: one line per frame, which may also name its file
     #[arg(long, value_name = "FILE")]
     pub(crate) timestamps: Option<PathBuf>,
     /// Unit of the times in --timestamps

@@ -46,7 +46,7 @@ fn check_reads_standard_input() {
     }
     let long = check(&"#".repeat((1 << 20) + 1), &["check", "-"]);
     let said = String::from_utf8(long.stderr).unwrap();
-    assert!(said.contains("larger than 1 MiB"), "{said}");
+    assert!(said.contains("`standard input`") && said.contains("larger than 1 MiB"), "{said}");
 }
 
 /// The card of every organization shows what irrelevant regions send, and benches count it.

@@ -25,14 +25,22 @@ pub(crate) fn expand(input: &Path, images: ImageRelation) -> Result<Vec<ImageFil
     if input.exists() {
         return Ok(vec![ImageFile::plain(input.to_owned())]);
     }
+    if let Some((text, name)) = sequence_of(input) {
+        return name.images(text);
+    }
     match input.to_str() {
         Some(text) if is_url(text) => Err(FootageError::Url { url: input_without_secrets(input) }),
         Some(text) if is_pattern(text) => pattern_images(text),
-        text => match text.and_then(SequenceName::parse) {
-            Some(name) => name.images(&input.display().to_string()),
-            None => Err(FootageError::Missing { path: input_without_secrets(input).into() }),
-        },
+        _ => Err(FootageError::Missing { path: input_without_secrets(input).into() }),
     }
+}
+
+/// Returns the name of numbered files, if an input that does not exist is one. A name in a folder that does not exist may be
+/// a pattern.
+pub(crate) fn sequence_of(input: &Path) -> Option<(&str, SequenceName)> {
+    let text = input.to_str().filter(|_| !input.exists())?;
+    let name = SequenceName::parse(text)?;
+    (name.has_folder() || !is_pattern(text)).then_some((text, name))
 }
 
 /// Returns the images that a pattern or the name of numbered files matches.

@@ -34,8 +34,10 @@ impl SequenceName {
                 continue;
             }
             let (width, after) = after.split_once('d')?;
-            let digits = if width.is_empty() { 1 } else { width.parse().ok()? };
-            parts.push((std::mem::take(&mut literal), digits));
+            let is_number = width.bytes().all(|byte| byte.is_ascii_digit());
+            let digits =
+                if width.is_empty() { 1 } else { width.parse().ok().filter(|_| is_number)? };
+            parts.push((std::mem::take(&mut literal), usize::max(digits, 1)));
             rest = after;
         }
         literal.push_str(rest);
@@ -45,8 +47,13 @@ impl SequenceName {
         Some(Self { folder, before, after: literal, digits })
     }
 
+    /// Returns true if the folder of the files exists.
+    pub(crate) fn has_folder(&self) -> bool {
+        self.folder.is_dir()
+    }
+
     /// Returns the number in a name; `None` for another name.
-    fn number_of(&self, name: &str) -> Option<u64> {
+    fn number_of(&self, name: &str) -> Option<u128> {
         let digits = name.strip_prefix(&self.before)?.strip_suffix(&self.after)?;
         let is_number = digits.bytes().all(|byte| byte.is_ascii_digit());
         // A longer number has no zeros in front, and so `f%02d` does not match `f0012`.
@@ -55,14 +62,14 @@ impl SequenceName {
         if is_number && is_padded { digits.parse().ok() } else { None }
     }
 
-    fn path_of(&self, number: u64) -> PathBuf {
+    fn path_of(&self, number: u128) -> PathBuf {
         let Self { before, after, digits, .. } = self;
         self.folder.join(format!("{before}{number:0digits$}{after}"))
     }
 
     /// Returns the files with their numbers, in the order of the numbers.
-    fn files(&self) -> Result<Vec<(u64, PathBuf)>, FootageError> {
-        let mut files: Vec<(u64, PathBuf)> = entries(&self.folder)?
+    fn files(&self) -> Result<Vec<(u128, PathBuf)>, FootageError> {
+        let mut files: Vec<(u128, PathBuf)> = entries(&self.folder)?
             .into_iter()
             .filter_map(|path| Some((self.number_of(path.file_name()?.to_str()?)?, path)))
             .collect();
@@ -79,7 +86,13 @@ impl SequenceName {
                 EntryKind::Skipped(Some(SkipReason::ImageType { name })) => {
                     FootageError::ImageType { path: path.clone(), name }
                 }
-                EntryKind::Image | EntryKind::Video | EntryKind::Folder | EntryKind::Skipped(_) => {
+                EntryKind::Folder | EntryKind::Skipped(Some(SkipReason::NotAFile)) => {
+                    FootageError::Unreadable {
+                        path: path.clone(),
+                        problem: "it is not a file".to_owned(),
+                    }
+                }
+                EntryKind::Image | EntryKind::Video | EntryKind::Skipped(_) => {
                     FootageError::UnsupportedType { path: path.clone() }
                 }
             });
@@ -114,7 +127,10 @@ mod tests {
         assert_eq!(name("a/f%04d.png"), found("f", 4, ".png"));
         assert_eq!(name("%d.png"), found("", 1, ".png"));
         assert_eq!(name("100%%-%3d.png"), found("100%-", 3, ".png"));
-        for text in ["f.png", "f%.png", "f%x.png", "%d-%d.png", "a%04d/f.png", "f%%d.png", ""] {
+        assert_eq!(name("%0d.png"), found("", 1, ".png"));
+        for text in
+            ["f.png", "%+4d.png", "f%.png", "f%x.png", "%d-%d.png", "a%04d/f.png", "f%%d.png", ""]
+        {
             assert_eq!(name(text), None, "{text}");
         }
     }

@@ -62,14 +62,12 @@ impl ZipImages {
     /// Returns the bytes of an image. Their checksum is compared with that of the archive.
     fn bytes_of(&mut self, image: &ZipImage, name: &Path) -> Result<Vec<u8>, FootageError> {
         let limit = MAX_FILE_GIB << 30;
-        let refused = |problem: String| {
-            zip_error(&self.path, &format!("its entry `{}`: {problem}", image.path.display()))
-        };
+        let shown = image.path.display().to_string();
         let entry = self.archive.by_index(image.index);
-        let entry = entry.map_err(|error| refused(error.to_string()))?;
+        let entry = entry.map_err(|error| zip_error(&self.path, &shown, &error))?;
         let mut bytes = Vec::new();
         let read = entry.take(limit + 1).read_to_end(&mut bytes);
-        read.map_err(|error| refused(error.to_string()))?;
+        read.map_err(|error| zip_error(&self.path, &shown, &error.into()))?;
         if bytes.len() as u64 > limit {
             return Err(FootageError::TooLarge { path: name.to_owned() });
         }

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The images in a ZIP archive, in natural order. Folders in which all of them lie are left out of
-//! consideration, so an archive of a folder is read as the folder itself.
+//! The images in a ZIP archive, in natural order. An archive is read as the folder that it was made of, whether that folder
+//! is an entry of the archive or not.
 
+use std::collections::HashSet;
 use std::fs::File;
-use std::io::BufReader;
-use std::path::{Path, PathBuf};
+use std::io::{BufReader, Read as _, Seek as _, SeekFrom};
+use std::path::{Component, Path, PathBuf};
 
 use zip::ZipArchive;
+use zip::result::ZipError;
 
+use super::content_kind::{ContentKind, content};
 use super::entry::is_hidden;
 use super::skip_reason::{SkipReason, SkippedInput};
 use crate::extension::{is_image_name, is_video_name, unread_image_type_by_name};
@@ -26,18 +29,56 @@ pub(super) struct ZipImage {
     pub(super) label: Option<String>,
 }
 
-/// Opens an archive.
+/// The entries by which an office document, a program or an e-book is recognized.
+const DOCUMENT_ENTRIES: [&str; 3] = ["[Content_Types].xml", "META-INF/MANIFEST.MF", "mimetype"];
+
+/// Opens an archive of images. Documents and programs that are ZIP archives are refused.
 pub(super) fn open_archive(path: &Path) -> Result<OpenArchive, FootageError> {
     let file = File::open(path).map_err(|error| FootageError::Unreadable {
         path: path.to_owned(),
         problem: error.to_string(),
     })?;
-    ZipArchive::new(BufReader::new(file)).map_err(|error| zip_error(path, &error.to_string()))
+    let archive =
+        ZipArchive::new(BufReader::new(file)).map_err(|error| zip_error(path, "", &error))?;
+    let refused =
+        |problem: &str| FootageError::Zip { path: path.to_owned(), problem: problem.to_owned() };
+    if DOCUMENT_ENTRIES.iter().any(|name| archive.index_for_name(name).is_some()) {
+        return Err(refused("it is a document or a program; unpack it, and name the images"));
+    }
+    if entry_count(path).is_some_and(|count| count != archive.len()) {
+        return Err(refused("it has several entries of one name; make it again"));
+    }
+    Ok(archive)
 }
 
-/// Returns the error for an archive. Problems of its library do not say what to do.
-pub(super) fn zip_error(path: &Path, problem: &str) -> FootageError {
-    let problem = format!("{}; copy or make it again", problem.replace(char::is_control, " "));
+/// Returns the number of entries that the end of an archive states. The library keeps one entry of each name.
+fn entry_count(path: &Path) -> Option<usize> {
+    const RECORD: u64 = 22;
+    const LONGEST_COMMENT: u64 = 0xFFFF;
+    let mut file = File::open(path).ok()?;
+    let length = file.metadata().ok()?.len();
+    file.seek(SeekFrom::Start(length.saturating_sub(LONGEST_COMMENT + RECORD))).ok()?;
+    let mut end = Vec::new();
+    file.take(LONGEST_COMMENT + RECORD).read_to_end(&mut end).ok()?;
+    let place = end.windows(4).rposition(|bytes| bytes == b"PK\x05\x06")?;
+    let count = u16::from_le_bytes(end.get(place + 10..)?.first_chunk().copied()?);
+    // An archive of more entries states the number elsewhere.
+    (count < u16::MAX).then_some(count.into())
+}
+
+/// Returns the error for an archive, or for its entry of a name.
+pub(super) fn zip_error(path: &Path, entry: &str, error: &ZipError) -> FootageError {
+    let entry = if entry.is_empty() { String::new() } else { format!("its entry `{entry}`: ") };
+    let problem = match error {
+        ZipError::UnsupportedArchive(ZipError::PASSWORD_REQUIRED) => {
+            "it is encrypted; unpack it with its password".to_owned()
+        }
+        ZipError::UnsupportedArchive(_) | ZipError::CompressionMethodNotSupported(_) => {
+            format!("{error}; pack it with Deflate, for example with `zip -r`")
+        }
+        _ => format!("{error}; copy or make it again"),
+    };
+    let problem = (entry + &problem).replace(char::is_control, " ");
     FootageError::Zip { path: path.to_owned(), problem }
 }
 
@@ -49,8 +90,11 @@ fn visible_files(
     let mut files = Vec::new();
     for index in 0..archive.len() {
         let name = archive.name_for_index(index).transpose();
-        let name = name.map_err(|error| zip_error(path, &error.to_string()))?.unwrap_or_default();
-        let file = PathBuf::from(&*name);
+        let name = name.map_err(|error| zip_error(path, "", &error))?.unwrap_or_default();
+        // Names are places below the archive. Some programs write a backslash between folders.
+        let named = PathBuf::from(name.replace('\\', "/"));
+        let own = named.components().filter(|part| matches!(part, Component::Normal(_)));
+        let file: PathBuf = own.collect();
         if !name.ends_with('/') && !file.ancestors().any(is_hidden) {
             files.push((index, file));
         }
@@ -91,27 +135,52 @@ pub(super) fn zip_images(
         }
         _ => {}
     }
-    let root = common_folder(found.iter().map(|(_, path)| path.as_path()));
-    let first_folder = |path: &Path| -> Option<String> {
-        let mut below = path.strip_prefix(&root).ok()?.components();
-        let first = below.next()?.as_os_str().to_string_lossy().into_owned();
-        below.next().map(|_| first)
-    };
-    if images == ImageRelation::Clip {
-        let nested = found.iter().find_map(|(_, path)| first_folder(path));
-        if let Some(folder) = nested {
-            return Err(refused(format!(
-                "its images lie in several folders, one of them `{folder}`, so they are not one clip; unpack it and \
-                 name a folder, or read a set with --images set"
-            )));
-        }
+    let places = ArchiveFolder::new(found.iter().map(|(_, path)| path.as_path()), images);
+    let nested = found.iter().find_map(|(_, path)| places.folders_above(path).first().cloned());
+    if let (ImageRelation::Clip, Some(folder)) = (images, nested) {
+        return Err(refused(format!(
+            "its images lie in several folders, one of them `{folder}`, so they are not one clip; unpack it and \
+             name a folder, or read a set with --images set"
+        )));
     }
-    let images = found.into_iter().map(|(index, path)| ZipImage {
-        index: *index,
-        path: path.clone(),
-        label: first_folder(path),
-    });
-    Ok(images.collect())
+    let mut listed: Vec<ZipImage> = found
+        .into_iter()
+        .filter(|(_, path)| places.folders_above(path).len() <= 1)
+        .map(|(index, path)| ZipImage {
+            index: *index,
+            path: path.clone(),
+            label: places.folders_above(path).into_iter().next(),
+        })
+        .collect();
+    // As in a folder, images without a label come first.
+    listed.sort_by_key(|image| image.label.is_some());
+    Ok(listed)
+}
+
+/// The folder in an archive that stands for the archive itself: the deepest one in which all images lie. The folder
+/// of a set has the folders of its classes, and no images.
+struct ArchiveFolder {
+    path: PathBuf,
+}
+
+impl ArchiveFolder {
+    fn new<'a>(paths: impl Iterator<Item = &'a Path> + Clone, images: ImageRelation) -> Self {
+        let common = common_folder(paths.clone());
+        let is_class = images == ImageRelation::Set
+            && paths.clone().all(|path| path.parent() == Some(&common));
+        let path = match common.parent() {
+            Some(above) if is_class => above.to_owned(),
+            _ => common,
+        };
+        Self { path }
+    }
+
+    /// Returns the names of the folders between this one and a file.
+    fn folders_above(&self, path: &Path) -> Vec<String> {
+        let below = path.strip_prefix(&self.path).ok().and_then(Path::parent);
+        let folders = below.into_iter().flat_map(Path::components);
+        folders.map(|folder| folder.as_os_str().to_string_lossy().into_owned()).collect()
+    }
 }
 
 /// Returns the deepest folder in which all paths lie.
@@ -126,19 +195,40 @@ fn common_folder<'a>(mut paths: impl Iterator<Item = &'a Path>) -> PathBuf {
     common.to_owned()
 }
 
-/// Returns the entries of an archive that are not read although the user may have meant them.
-pub(crate) fn skipped_of_zip(path: &Path) -> Vec<SkippedInput> {
-    let Ok(archive) = open_archive(path) else { return Vec::new() };
+/// Returns the entries of an archive that are not read although the user may have meant them. Another file has none.
+pub(crate) fn skipped_of_zip(path: &Path, images: ImageRelation) -> Vec<SkippedInput> {
+    let Some((archive, listed)) = listed_archive(path, images) else { return Vec::new() };
+    let read: HashSet<usize> = listed.iter().map(|image| image.index).collect();
     let files = visible_files(path, &archive).unwrap_or_default().into_iter();
-    let skipped = files.filter_map(|(_, file)| {
+    let skipped = files.filter(|(index, _)| !read.contains(index)).filter_map(|(_, file)| {
+        let is_archive = file.extension().is_some_and(|end| end.eq_ignore_ascii_case("zip"));
         let reason = match unread_image_type_by_name(&file) {
             Some(name) => SkipReason::ImageType { name },
             None if is_video_name(&file) => SkipReason::VideoInSet,
+            None if is_image_name(&file) => SkipReason::TooDeep,
+            None if file.extension().is_none() => SkipReason::NoExtension,
+            None if is_archive => SkipReason::Archive,
             None => return None,
         };
         Some(SkippedInput::new(&path.join(file), reason))
     });
     skipped.collect()
+}
+
+/// Returns the names of the images of an archive; another file has none.
+pub(crate) fn image_names_of_zip(path: &Path, images: ImageRelation) -> Vec<PathBuf> {
+    let listed = listed_archive(path, images).map(|(_, listed)| listed);
+    listed.unwrap_or_default().into_iter().map(|image| path.join(image.path)).collect()
+}
+
+/// Returns an archive with its images; `None` for another file, and for an archive that is refused.
+fn listed_archive(path: &Path, images: ImageRelation) -> Option<(OpenArchive, Vec<ZipImage>)> {
+    if !matches!(content(path), Ok(ContentKind::Archive)) {
+        return None;
+    }
+    let archive = open_archive(path).ok()?;
+    let listed = zip_images(path, &archive, images).ok()?;
+    Some((archive, listed))
 }
 
 #[cfg(test)]

@@ -55,7 +55,7 @@ pub fn source_from_memory(
         kind,
     });
     let feed = match &options.timestamps {
-        Some(file) => Box::new(TimestampedFeed::new(feed, file.clone())?),
+        Some(file) => Box::new(TimestampedFeed::new(feed, file.clone(), &options.interrupt)?),
         None => feed,
     };
     let names = vec![name.to_owned()];

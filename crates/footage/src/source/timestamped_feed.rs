@@ -3,6 +3,8 @@
 
 use std::path::Path;
 
+use foveate_toolchain::Interrupt;
+
 use super::feed::FrameFeed;
 use super::set_form::SetForm;
 use super::{SourceFrame, SourceKind};
@@ -15,6 +17,7 @@ pub(crate) struct TimestampedFeed {
     file: TimestampsFile,
     entries: std::vec::IntoIter<TimestampEntry>,
     count: usize,
+    problem: Option<String>,
 }
 
 impl TimestampedFeed {
@@ -26,28 +29,36 @@ impl TimestampedFeed {
     pub(crate) fn new(
         feed: Box<dyn FrameFeed>,
         file: TimestampsFile,
+        interrupt: &Interrupt,
     ) -> Result<Self, FootageError> {
-        if !feed.takes_timestamps() || feed.kind() == SourceKind::Set {
+        if feed.kind() == SourceKind::Set {
+            let problem = "the images of a set have no times; leave the option out".to_owned();
+            return Err(FootageError::Option { option: "--timestamps", problem });
+        }
+        if !feed.takes_timestamps() {
             let problem = "it gives times to the frames of a clip of images or of raw video; leave it out for \
                            other inputs"
                 .to_owned();
             return Err(FootageError::Option { option: "--timestamps", problem });
         }
-        let entries = file.read()?;
+        let entries = file.read(interrupt)?;
         let count = entries.len();
         match feed.total() {
             Some(total) if total != count as u64 => Err(file.refused(format!(
                 "it has {count} times, but there are {total} frames; each frame needs a line"
             ))),
-            _ => Ok(Self { feed, file, entries: entries.into_iter(), count }),
+            _ => Ok(Self { feed, file, entries: entries.into_iter(), count, problem: None }),
         }
     }
 
-    fn too_many_frames_error(&self) -> FootageError {
-        self.file.refused(format!(
-            "it has {} times, but there are more frames; each frame needs a line",
-            self.count
-        ))
+    /// Ends a feed whose number of frames is not that of the times. The frames of a stream before it are kept.
+    fn end_with(&mut self, problem: String) -> Result<Option<SourceFrame>, FootageError> {
+        let error = self.file.refused(problem);
+        if self.feed.is_stream() && self.entries.len() < self.count {
+            self.problem = Some(error.to_string());
+            return Ok(None);
+        }
+        Err(error)
     }
 }
 
@@ -70,8 +81,25 @@ fn check_name(
 
 impl FrameFeed for TimestampedFeed {
     fn next(&mut self) -> Result<Option<SourceFrame>, FootageError> {
-        let Some(frame) = self.feed.next()? else { return Ok(None) };
-        let Some(entry) = self.entries.next() else { return Err(self.too_many_frames_error()) };
+        if self.problem.is_some() {
+            return Ok(None);
+        }
+        let Some(frame) = self.feed.next()? else {
+            let (left, count) = (self.entries.len(), self.count);
+            if left > 0 && self.feed.problem().is_none() {
+                let problem =
+                    format!("it has {count} times, but there are {} frames", count - left);
+                return self.end_with(problem);
+            }
+            return Ok(None);
+        };
+        let Some(entry) = self.entries.next() else {
+            let count = self.count;
+            self.feed.stop();
+            return self.end_with(format!(
+                "it has {count} times, but there are more frames; each frame needs a line"
+            ));
+        };
         if self.feed.is_file_per_frame() {
             check_name(&self.file, &entry, &frame)?;
         }
@@ -95,7 +123,7 @@ impl FrameFeed for TimestampedFeed {
     }
 
     fn problem(&self) -> Option<String> {
-        self.feed.problem()
+        self.problem.clone().or_else(|| self.feed.problem())
     }
 
     fn recycle(&mut self, bytes: Vec<u8>) {

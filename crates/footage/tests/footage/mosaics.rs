@@ -140,8 +140,8 @@ fn inputs_that_are_no_mosaic_are_refused() {
     assert!(refused(Path::new("scene:street"), &plain).contains("leave the option out"));
     let clip = dir.path().join("clip.yuv");
     fs::write(&clip, [0; 24]).unwrap();
-    for layout in ["4x4,yuv420p", "4x1,gray"] {
+    for (layout, problem) in [("4x4,yuv420p", "a mosaic are grey"), ("4x1,gray", "at least 2x2")] {
         let raw = RawLayout::parse(layout).ok();
-        assert!(refused(&clip, &InputOptions { raw, ..plain.clone() }).contains("2x2"));
+        assert!(refused(&clip, &InputOptions { raw, ..plain.clone() }).contains(problem));
     }
 }

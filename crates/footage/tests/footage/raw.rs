@@ -123,10 +123,17 @@ fn inputs_that_are_not_raw_video_are_refused() {
     let options = raw("4x3,gray");
     let error = |path: &Path| opened(path, 8, &options).err().unwrap().to_string();
     assert!(error(dir.path()).contains("--raw cannot be used"));
-    assert!(error(Path::new("scene:street")).contains("`scene:street` is not a file"));
+    assert!(error(&dir.path().join("f%d.raw")).contains("raw video is one file"));
+    assert!(error(Path::new("scene:street")).contains("and `scene:street` is not"));
     assert!(error(Path::new("none.raw")).contains("does not exist"));
     let empty = written(dir.path(), "empty.raw", &[]);
     assert!(error(&empty).contains("holds no frame"));
+    // Pixels may begin as a gzipped file does.
+    let packed = written(dir.path(), "gz.raw", &[0x1F, 0x8B, 8, 0, 0, 0, 0, 0, 0, 0, 0, 0]);
+    assert_eq!(pixels(&frames(&packed, 8, &options).0)[0][..2], [0x1F, 0x8B]);
+    let colours = RawLayout::parse("2x2,rgb24").ok();
+    let colours = InputOptions { raw: colours, luma: LumaRange::Full, ..InputOptions::default() };
+    assert_eq!(opened(&packed, 8, &colours).unwrap().luma(), None);
     // The name of a raw camera file does not matter.
     let named = written(dir.path(), "a.raw", &[5; 12]);
     assert_eq!(frames(&named, 8, &options).0.len(), 1);

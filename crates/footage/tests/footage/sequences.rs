@@ -55,10 +55,25 @@ fn a_sequence_without_files_is_refused() {
     fs::write(dir.path().join("f2.webp"), "RIFF\x10\0\0\0WEBPVP8X").unwrap();
     assert!(error("f%d.webp").contains("type WebP"));
     fs::create_dir(dir.path().join("f3.bmp")).unwrap();
-    assert!(error("f%d.bmp").contains("f3.bmp` is not an image"));
+    assert!(error("f%d.bmp").contains("f3.bmp`: it is not a file"));
     // A file that has such a name is read itself.
     write(dir.path(), &["%d.pgm", "7.pgm"]);
     let (found, _) = all(&dir.path().join("%d.pgm"));
     assert_eq!(found.len(), 1);
     assert!(warnings(&dir.path().join("f%d.pgm")).is_empty());
+}
+
+#[test]
+fn unusual_names_of_sequences_are_read() {
+    let dir = tempfile::tempdir().unwrap();
+    let folder = dir.path().join("s[6]");
+    fs::create_dir(&folder).unwrap();
+    write(&folder, &["f0.pgm", "f1.pgm", "f18446744073709551616.pgm"]);
+    for name in ["f%d.pgm", "f%0d.pgm"] {
+        assert_eq!(all(&folder.join(name)).0.len(), 3, "{name}");
+    }
+    assert!(warnings(&folder.join("f%d.pgm"))[0].contains("1 gap: "));
+    fs::create_dir(folder.join("f2.pgm")).unwrap();
+    let error = opened(&folder.join("f%d.pgm"), 8, &InputOptions::default()).err().unwrap();
+    assert!(error.to_string().contains("f2.pgm`: it is not a file"), "{error}");
 }

@@ -94,17 +94,28 @@ fn a_file_that_does_not_fit_is_refused() {
     }
 }
 
+/// The number of frames of a stream may be unknown. Those before a fault are kept.
 #[test]
-fn raw_video_that_is_longer_than_its_times_ends_with_an_error() {
+fn raw_video_of_another_length_than_its_times_has_a_problem() {
     let folder = Folder::new();
     let path = folder.path().join("clip.gz");
     fs::write(&path, [3; 12]).unwrap();
     let raw = RawLayout::parse("2x2,gray").ok();
-    let options = folder.options("0\n1\n", TimestampUnit::Seconds);
-    let options = InputOptions { raw, ..options };
-    let mut source = opened(&path, 8, &options).unwrap();
-    source.next_frame().unwrap();
-    source.next_frame().unwrap();
-    let error = source.next_frame().unwrap_err().to_string();
-    assert!(error.contains("it has 2 times, but there are more frames"), "{error}");
+    for (text, count, problem) in [
+        ("0\n1\n", 2, Some("it has 2 times, but there are more frames")),
+        ("0\n1\n2\n3\n", 3, Some("it has 4 times, but there are 3 frames")),
+        ("0\n1\n2\n", 3, None),
+    ] {
+        let options = folder.options(text, TimestampUnit::Seconds);
+        let options = InputOptions { raw, ..options };
+        let (found, said) = frames(&path, 8, &options);
+        assert_eq!((found.len(), said.is_some()), (count, problem.is_some()), "{said:?}");
+        assert!(problem.is_none_or(|problem| said.unwrap().contains(problem)));
+        // Frames that are not wanted need no times.
+        let few = InputOptions { frames: Some(2), ..options };
+        assert_eq!(frames(&path, 8, &few).1, None);
+    }
+    let none = folder.options("", TimestampUnit::Seconds);
+    let error = opened(&path, 8, &InputOptions { raw, ..none }).err().unwrap().to_string();
+    assert!(error.contains("it has 0 times"), "{error}");
 }

@@ -12,7 +12,7 @@ use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
 use crate::clips::{all, opened};
-use foveate_footage::{FootageError, InputOptions, plan, subjects};
+use foveate_footage::{FootageError, InputOptions, TimestampUnit, TimestampsFile, plan, subjects};
 
 fn fifo(folder: &Path, name: &str) -> PathBuf {
     let path = folder.join(name);
@@ -109,4 +109,20 @@ fn a_request_to_stop_ends_every_wait() {
         assert_eq!(told.recv().unwrap(), whole, "case {case}");
         drop(writer);
     }
+}
+
+#[test]
+fn a_wait_for_the_times_of_images_ends_on_request() {
+    let dir = tempfile::tempdir().unwrap();
+    let image = dir.path().join("a.pgm");
+    fs::write(&image, "P2 2 1 255 1 2\n").unwrap();
+    let times = fifo(dir.path(), "times");
+    let file = TimestampsFile { path: times, unit: TimestampUnit::Seconds };
+    let options = InputOptions { timestamps: Some(file), ..InputOptions::default() };
+    let interrupt = options.interrupt.clone();
+    let reading = std::thread::spawn(move || opened(&image, 8, &options).err().unwrap());
+    std::thread::sleep(Duration::from_millis(200));
+    assert!(!reading.is_finished());
+    interrupt.flag().store(true, Ordering::Relaxed);
+    assert!(matches!(reading.join().unwrap(), FootageError::Interrupted));
 }

@@ -113,3 +113,78 @@ fn damage_is_found() {
         assert!(said.contains("the ZIP archive") && !said.contains('\n'), "{length}: {said}");
     }
 }
+
+#[test]
+fn a_set_in_an_archive_is_that_of_its_folder() {
+    let dir = tempfile::tempdir().unwrap();
+    let labels = |entries: &[(&str, &str)]| -> Vec<(String, Option<String>)> {
+        let path = archive(dir.path(), entries);
+        let names = frames(&path, 8, &set()).0.into_iter().map(|frame| {
+            let name = Path::new(&frame.name).file_name().unwrap().to_string_lossy().into_owned();
+            (name, frame.label)
+        });
+        names.collect()
+    };
+    let found = |name: &str, label: Option<&str>| (name.to_owned(), label.map(str::to_owned));
+    assert_eq!(
+        labels(&[("cat/1.pgm", IMAGE), ("cat/2.pgm", IMAGE)]),
+        [found("1.pgm", Some("cat")), found("2.pgm", Some("cat"))]
+    );
+    // Images without a label come first, deeper ones are left out, and a backslash may stand between folders.
+    let entries = [("a\\1.pgm", IMAGE), ("b.pgm", IMAGE), ("a/sub/2.pgm", IMAGE), ("z.pgm", IMAGE)];
+    assert_eq!(
+        labels(&entries),
+        [found("b.pgm", None), found("z.pgm", None), found("1.pgm", Some("a"))]
+    );
+    let said = input_warnings(&[archive(dir.path(), &entries)], &set()).join("\n");
+    assert!(said.contains("2.pgm` is skipped: it lies deeper"), "{said}");
+}
+
+#[test]
+fn entries_that_may_be_missed_are_named() {
+    let dir = tempfile::tempdir().unwrap();
+    let entries = [("f1.pgm", IMAGE), ("f01.pgm", IMAGE), ("b", IMAGE), ("more.zip", "PK")];
+    let path = archive(dir.path(), &entries);
+    let said = input_warnings(&[&path], &InputOptions::default()).join("\n");
+    for part in [
+        "b` is skipped: it has no extension",
+        "more.zip` is skipped: archives",
+        "have the same number",
+    ] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+    // A file that only ends as an archive does is none.
+    let other = dir.path().join("clip.y4m");
+    let bytes = [b"YUV4MPEG2 W2 H1 Cmono\nFRAME\n12".to_vec(), fs::read(&path).unwrap()].concat();
+    fs::write(&other, bytes).unwrap();
+    assert!(input_warnings(&[&other], &InputOptions::default()).is_empty());
+}
+
+#[test]
+fn archives_that_are_no_set_of_images_are_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    let plain = InputOptions::default();
+    let document = [("[Content_Types].xml", "x"), ("word/media/1.pgm", IMAGE)];
+    let said = error(&archive(dir.path(), &document), &plain);
+    assert!(said.contains("it is a document or a program; unpack it"), "{said}");
+    // Two entries of one name.
+    let path = archive(dir.path(), &[("a.pgm", IMAGE), ("b.pgm", IMAGE)]);
+    let bytes = fs::read(&path).unwrap();
+    let renamed: Vec<u8> =
+        bytes.iter().map(|&byte| if byte == b'b' { b'a' } else { byte }).collect();
+    fs::write(&path, renamed).unwrap();
+    let said = error(&path, &plain);
+    assert!(said.contains("several entries of one name"), "{said}");
+    // An entry whose bit says that it is encrypted, in both of its headers.
+    let path = archive(dir.path(), &[("a.pgm", IMAGE)]);
+    let mut bytes = fs::read(&path).unwrap();
+    let central = bytes.windows(4).position(|found| found == b"PK\x01\x02").unwrap();
+    bytes[6] |= 1;
+    bytes[central + 8] |= 1;
+    fs::write(&path, bytes).unwrap();
+    let said = error(&path, &plain);
+    assert!(said.contains("its entry `a.pgm`: it is encrypted; unpack it"), "{said}");
+    // A name outside of the archive is a place in it.
+    let path = archive(dir.path(), &[("/etc/../a.pgm", IMAGE)]);
+    assert!(all(&path).0[0].name.ends_with("frames.zip/etc/a.pgm"));
+}
