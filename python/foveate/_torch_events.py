@@ -6,7 +6,7 @@ import json
 import os
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, Union
+from typing import Any
 
 import numpy as np
 import torch
@@ -54,7 +54,7 @@ class RegionEvents(Dataset[dict[str, torch.Tensor]]):
     >>> loader = torch.utils.data.DataLoader(events, batch_size=8, collate_fn=RegionEvents.collate, num_workers=2)
     """
 
-    def __init__(self, folder: Union[str, os.PathLike[str]]) -> None:
+    def __init__(self, folder: str | os.PathLike[str]) -> None:
         require_packages("RegionEvents", ["pyarrow"], "tables")
         from pyarrow import parquet
 

@@ -135,7 +135,8 @@ pub(super) fn zip_images(
         }
         _ => {}
     }
-    let places = ArchiveFolder::new(found.iter().map(|(_, path)| path.as_path()), images);
+    let paths: Vec<&Path> = found.iter().map(|(_, path)| path.as_path()).collect();
+    let places = ArchiveFolder::new(&paths, images);
     let nested = found.iter().find_map(|(_, path)| places.folders_above(path).first().cloned());
     if let (ImageRelation::Clip, Some(folder)) = (images, nested) {
         return Err(refused(format!(
@@ -164,10 +165,10 @@ struct ArchiveFolder {
 }
 
 impl ArchiveFolder {
-    fn new<'a>(paths: impl Iterator<Item = &'a Path> + Clone, images: ImageRelation) -> Self {
-        let common = common_folder(paths.clone());
-        let is_class = images == ImageRelation::Set
-            && paths.clone().all(|path| path.parent() == Some(&common));
+    fn new(paths: &[&Path], images: ImageRelation) -> Self {
+        let common = common_folder(paths.iter().copied());
+        let is_class =
+            images == ImageRelation::Set && paths.iter().all(|path| path.parent() == Some(&common));
         let path = match common.parent() {
             Some(above) if is_class => above.to_owned(),
             _ => common,
