@@ -16,14 +16,14 @@ const GROUPS = [
   ["Zones", "zones"],
 ];
 /** The two keys beside the pictures. */
-const KEY_ROWS = [["region.size", "Side of a region"], ["temporal.level", "Least change"]];
+const KEY_ROWS = [["region.size", "Region size"], ["temporal.level", "Change needed"]];
 /** A line of help for each key, without the name of a feature. */
 const HELP = new Map(Object.entries({
-  "region.size": "in pixels; a region is sent as a whole",
+  "region.size": "pixels per side of a square region, which is sent as a whole",
   "region.neighborhood": "isolated: windows end at the edge of a region; shared: they reach into its neighbours",
   "denoise.filter": "is applied before anything is decided",
   "frame.pixel_bits": "depth of a pixel; thresholds follow it",
-  "temporal.level": "grey levels by which a pixel must differ to count as changed",
+  "temporal.level": "grey levels, above which a pixel counts as changed",
   "temporal.min_count": "changed pixels from which on a region has changed (TRS)",
   "temporal.reference": "a region is compared with the last frame, or with what the receiver has",
   "render.irrelevant": "what the receiver shows where nothing is relevant: black, the last picture, or averages",

@@ -64,7 +64,10 @@ export class Headline {
 
   show(rawBytes) {
     const { length } = this.#entries, sum = this.#entries.reduce((total, { count }) => total + count, 0);
-    setText(this.#id, length ? percent(sum / length / rawBytes) : "–");
+    const share = length ? sum / length / rawBytes : 0;
+    setText(this.#id, length ? percent(share) : "–");
+    const times = share > 0 ? 1 / share : 0;
+    setText(`${this.#id}-times`, times >= 1.5 ? `: ${times.toFixed(times < 10 ? 1 : 0)} times less` : "");
   }
 }
 

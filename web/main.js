@@ -310,11 +310,19 @@ function step(frame) {
   const now = performance.now();
   // In the first frame of a further pass everything is new, which is no property of the camera.
   if (!isRepeated) figures.add(sent, events, frame.time_us, now - start, now);
+  setText("difference", `The receiver's picture differs by ${meanDifference(camera.input, camera.screen).toFixed(1)} of 255 grey levels on average.`);
   pinned.step(frame, time, isRepeated, now);
   capture.frameShown();
   network.frameShown(sent.number);
   chooseRegion();
   explain(now);
+}
+
+/** Returns the mean difference of the pixels of two pictures. */
+function meanDifference(one, other) {
+  let sum = 0;
+  for (let place = 0; place < one.length; place++) sum += Math.abs(one[place] - other[place]);
+  return sum / one.length;
 }
 
 /** Chooses a region before the user has chosen one: the one that was sent nearest to the centre, or the one at the centre. */
@@ -362,7 +370,7 @@ async function run() {
 
 function pause(on) {
   paused = on;
-  byId("pause").setAttribute("aria-pressed", on);
+  setText("pause-name", on ? "Play" : "Pause");
   setText("source-status", "");
   source?.run(!on);
 }
@@ -552,7 +560,7 @@ async function start() {
   controls = new Controls({ all: byId("controls"), key: byId("key-controls"), preset: byId("preset") }, tables, { presets, change: changeKey, toggle: toggleFeature, preset: choosePreset });
   addListeners();
   await fromLink();
-  if (paused) showSourceStatus("paused, because this system asks for less motion; Pause lets it run");
+  if (paused) showSourceStatus("paused, because your computer asks for less motion; press Play");
   // For tests and for users of the console.
   window.foveate = { engine, get camera() { return camera; }, get config() { return config; }, get sums() { return figures.sums; },
     get source() { return source; }, network };

@@ -23,7 +23,7 @@ export class NetworkThread {
     };
     this.#worker.onerror = event => {
       event.preventDefault();
-      for (const { reject } of this.#pending.values()) reject(new Error(`${BLOCKED} (${event.message || "no reason is given"})`));
+      for (const { reject } of this.#pending.values()) reject(new Error(`the network's thread does not start (${event.message || "refused by the browser"})`));
       this.#pending.clear();
     };
   }

@@ -12,7 +12,7 @@ const KINDS = [
   ["changed, irrelevant", "--k6", byte => (byte & 3) === 2],
 ];
 /** The keys of the legend without outlines, with the class of their mark. */
-const SHADES = [["bright: sent", "bright"], ["average sent", "k2"], ["dark: not sent", "dim"]];
+const SHADES = [["not dimmed: all pixels sent", "bright"], ["tinted: only averages sent", "k2"], ["dark: not sent", "dim"]];
 /** The opacities of the colour of an average that is sent, and of the shade over regions that are not sent. */
 const AVERAGE_ALPHA = 120, DARK_ALPHA = 185;
 /** The width of an outline as a share of the side of a region. */
@@ -84,6 +84,7 @@ export class Screens {
     };
     for (const [name, colour] of SHADES) addKey("shade", name, colour);
     for (const [name, colour] of KINDS) addKey("outline", name, colour.slice(2));
+    addKey("", "chosen region", "chosen");
     this.showOutlines(false);
     const key = document.createElement("span");
     Object.assign(key, { className: "key", id: "moved-key", hidden: true, textContent: "\u2192 moved" });
@@ -112,6 +113,7 @@ export class Screens {
 
   /** Sets the sizes to the frames and the grid of a camera. */
   resize(facts) {
+    const centre = this.#centreOfChosen();
     this.#facts = facts;
     const { width, height, columns, rows } = facts;
     for (const view of Object.values(this.#views)) {
@@ -128,8 +130,18 @@ export class Screens {
     this.#overlay.data = new ImageData(columns, rows);
     this.#overlay.words = new Uint32Array(this.#overlay.data.data.buffer);
     this.showZones(facts);
-    if (this.#chosen) this.choose(Math.min(this.#chosen.x, columns - 1), Math.min(this.#chosen.y, rows - 1));
+    // The region at the same place of the picture stays chosen.
+    const place = (share, length, count) => Math.min(Math.floor(share * length / facts.side), count - 1);
+    if (centre) this.choose(place(centre.x, width, columns), place(centre.y, height, rows));
     this.#label();
+  }
+
+  /** Returns the centre of the chosen region as shares of the width and the height of the frame. */
+  #centreOfChosen() {
+    if (!this.#chosen || !this.#facts) return null;
+    const { width, height, side } = this.#facts, { x, y } = this.#chosen;
+    const share = (index, length) => Math.min((index + 0.5) * side / length, 0.999999);
+    return { x: share(x, width), y: share(y, height) };
   }
 
   /** Shows the last frame of the camera. */

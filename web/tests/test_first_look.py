@@ -64,6 +64,10 @@ def test_the_large_figure_is_the_share_of_the_last_second(still):
     until(page, "document.getElementById('headline').textContent.includes('%')")
     found = share(page.inner_text("#headline"))
     assert min(shares) - 1e-3 <= found <= max(shares) + 1e-3
+    times = float(page.inner_text("#headline-times").removeprefix(": ").removesuffix(" times less"))
+    assert abs(times * found - 1) < 0.06
+    difference = np.abs(greys(page, "input").astype(int) - greys(page, "receiver")).mean()
+    assert f"differs by {difference:.1f} of 255" in page.inner_text("#difference")
 
 
 def test_what_is_sent_is_bright_and_the_rest_is_dark(still):
@@ -164,6 +168,11 @@ def test_targets_are_large_enough(still, pointer):
 def test_a_region_is_explained_before_one_is_chosen(opened, still):
     page = still(SIZE)
     assert "Region 10,7" in page.inner_text("#reasons")
+    # The region at the same place stays chosen.
+    page.locator("[data-key='region.size'] input[type=number]").fill("32")
+    page.keyboard.press("Tab")
+    page.evaluate("document.getElementById('step').click()")
+    until(page, "document.getElementById('reasons').textContent.includes('Region 2,1')")
     running = opened(SIZE)
     until(running, "document.getElementById('reasons').textContent.includes('Region')")
     assert running.locator("#receiver .cursor").is_visible()
@@ -236,8 +245,9 @@ def test_the_pictures_are_saved_and_recorded(opened, still):
 
 def test_a_page_that_stands_still_says_why(still):
     page = still("")
-    assert "asks for less motion" in page.inner_text("#source-status")
+    assert "asks for less motion; press Play" in page.inner_text("#source-status") and page.inner_text("#pause-name") == "Play"
     page.click("#pause")
+    assert page.inner_text("#pause-name") == "Pause"
     assert page.inner_text("#source-status") == ""
 
 

@@ -14,7 +14,6 @@ use super::input::InputArgs;
 /// Check a configuration and print the design that it describes: grid, widths, clocks, ports
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate check camera.toml
-          foveate presets paper | foveate check -
           foveate check --preset serial --min-fps 1000 --clock 50MHz
           foveate check --preset raster --clip scene:street --frames 30 --link 10Mbit",
     mut_group("InputArgs", |group| group.requires("clip")))]
