@@ -131,6 +131,8 @@ def test_progress_is_shown_where_someone_sees_it(capfd):
 def test_an_interrupt_leaves_a_camera_that_goes_on():
     code = (
         "import foveate as fv, numpy as np, os, signal, threading\n"
+        # A job in the background of a shell ignores the signal.
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
         "camera = fv.Camera('paper')\n"
         "threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()\n"
         "try:\n"
