@@ -44,7 +44,7 @@ pub enum StudyError {
         clips: usize,
     },
     /// The events of the sensor cannot be read.
-    #[error("cannot read sensor events `{}`: {problem}; events are CSV with the columns t_us, x, y, sorted by time, or EVT 2.0 or EVT 3.0", path.display())]
+    #[error("cannot read sensor events `{}`: {problem}; events are CSV with the columns t_us, x, y, sorted by time, or a file in EVT 2.0, EVT 3.0 or AEDAT4", path.display())]
     SensorEvents {
         /// The path of the file.
         path: PathBuf,
