@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // The three pictures side by side as one picture, which is saved as PNG or recorded as video.
 
-import { byId, bytes, make, setText } from "./elements.js";
+import { byId, bytes, download, setText } from "./elements.js";
 
 /** The gap between pictures as a share of their width. */
 const GAP = 0.02;
@@ -68,9 +68,7 @@ export class Capture {
   }
 
   #offer(name, blob) {
-    const link = URL.createObjectURL(blob);
-    make("a", { href: link, download: name }).click();
-    setTimeout(() => URL.revokeObjectURL(link), 10_000);
+    download(name, blob);
     setText("saved", `${name} has ${bytes(blob.size)}`);
   }
 }

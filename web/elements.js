@@ -32,9 +32,9 @@ export function bytes(count) {
 /** Formats a share in percent. */
 export const percent = share => `${(100 * share).toFixed(share < 0.1 ? 2 : share < 10 ? 1 : 0)} %`;
 
-/** Offers a text as a download. */
-export function download(name, type, text) {
-  const link = URL.createObjectURL(new Blob([text], { type }));
+/** Offers a Blob as a download. */
+export function download(name, blob) {
+  const link = URL.createObjectURL(blob);
   make("a", { href: link, download: name }).click();
   setTimeout(() => URL.revokeObjectURL(link), 10_000);
 }

@@ -3,14 +3,16 @@
 
 import { byId } from "./elements.js";
 import { Headline } from "./figures.js";
-
-/** Returns a grey pixel as a word of ImageData. */
-const greyWord = value => (0xFF000000 | value * 0x010101) >>> 0;
+import { paintGrey, resizeView } from "./screens.js";
 
 export class PinnedCamera {
-  #camera = null; #toml = ""; #canvas = document.createElement("canvas"); #words; #data; #headline = new Headline("pinned-headline");
+  #camera = null; #toml = ""; #view; #headline = new Headline("pinned-headline");
 
-  constructor() { byId("pinned-screen").append(this.#canvas); }
+  constructor() {
+    const canvas = document.createElement("canvas");
+    byId("pinned-screen").append(canvas);
+    this.#view = { canvas, context: canvas.getContext("2d") };
+  }
 
   get isOn() { return this.#camera !== null; }
 
@@ -19,9 +21,7 @@ export class PinnedCamera {
     this.release();
     this.#camera = make(toml, width, height);
     this.#toml = toml;
-    Object.assign(this.#canvas, { width, height });
-    this.#data = new ImageData(width, height);
-    this.#words = new Uint32Array(this.#data.data.buffer);
+    resizeView(this.#view, width, height);
     this.#headline.reset();
     this.#show(true);
   }
@@ -53,8 +53,7 @@ export class PinnedCamera {
     if (!this.isOn) return;
     const sent = frame.rgba ? this.#camera.stepRgba(frame.rgba, time_us) : this.#camera.step(frame.grey, time_us);
     const { screen, facts: { width, height } } = this.#camera;
-    for (let place = 0; place < this.#words.length; place++) this.#words[place] = greyWord(screen[place]);
-    this.#canvas.getContext("2d").putImageData(this.#data, 0, 0);
+    paintGrey(this.#view, screen);
     if (!isRepeated) this.#headline.add(sent.bits / 8, now);
     this.#headline.show(width * height);
   }

@@ -38,7 +38,7 @@ export class Recording {
   download() {
     this.#runAndShow(() => {
       const text = this.on ? this.#camera().events() : this.#text;
-      download("events.csv", "text/csv", text);
+      download("events.csv", new Blob([text], { type: "text/csv" }));
       return `events.csv has ${bytes(text.length)}`;
     });
   }

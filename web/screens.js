@@ -48,6 +48,19 @@ function addArrow(path, x, y, dx, dy, width) {
   path.closePath();
 }
 
+/** Sets the size of a view, which is a canvas with the pixels of its picture. */
+export function resizeView(view, width, height) {
+  Object.assign(view.canvas, { width, height });
+  view.data = new ImageData(width, height);
+  view.words = new Uint32Array(view.data.data.buffer);
+}
+
+/** Shows grey pixels in a view. */
+export function paintGrey({ context, words, data }, pixels) {
+  for (let place = 0; place < words.length; place++) words[place] = GREY[pixels[place]];
+  context.putImageData(data, 0, 0);
+}
+
 export class Screens {
   #facts = null; #chosen = null; #views = {}; #tints; #classTints; #overlay; #zones; #arrows; #outlines; #outlineKinds; #hasOutlines = false; #isCompared = false; #choose; #painter; #painted = null;
 
@@ -117,9 +130,7 @@ export class Screens {
     this.#facts = facts;
     const { width, height, columns, rows } = facts;
     for (const view of Object.values(this.#views)) {
-      Object.assign(view.canvas, { width, height });
-      view.data = new ImageData(width, height);
-      view.words = new Uint32Array(view.data.data.buffer);
+      resizeView(view, width, height);
     }
     const radius = radiusOf(facts), scale = Math.max(1, Math.ceil(ARROW_CELL / facts.side));
     Object.assign(this.#arrows.canvas, { hidden: !radius, width: radius ? width * scale : 1, height: radius ? height * scale : 1 });
@@ -147,8 +158,8 @@ export class Screens {
   /** Shows the last frame of the camera. */
   paint(camera) {
     const { input, decisions, receiver } = this.#views, { columns, rows, side } = this.#facts;
-    this.#grey(input, camera.input);
-    this.#grey(receiver, this.#isCompared ? camera.input : camera.screen);
+    paintGrey(input, camera.input);
+    paintGrey(receiver, this.#isCompared ? camera.input : camera.screen);
     const { words, data } = this.#overlay, regions = camera.regions;
     for (let region = 0; region < words.length; region++) words[region] = this.#tints[regions[region] & 15];
     this.#overlay.putImageData(data, 0, 0);
@@ -227,11 +238,6 @@ export class Screens {
       context.stroke(path);
       context.fill(path);
     }
-  }
-
-  #grey({ context, words, data }, pixels) {
-    for (let place = 0; place < words.length; place++) words[place] = GREY[pixels[place]];
-    context.putImageData(data, 0, 0);
   }
 
   /** Chooses a region and outlines it. */

@@ -127,7 +127,7 @@ impl Decoding {
 /// map_version : int or None
 ///     Version of the map of classes that the frame used; None for a design without zones, or if it is lost.
 /// losses : tuple of StreamLoss
-///     What is missing or wrong in this frame, and between it and the one before.
+///     The losses in this frame, and between it and the one before.
 /// design : Design
 ///     The design that the stream belongs to.
 #[pyclass(frozen, module = "foveate")]
@@ -229,7 +229,7 @@ impl DecodedFrame {
         self.arrays.displacements(py, self.results())
     }
 
-    /// What is missing or wrong in this frame, and between it and the one before: tuple of StreamLoss.
+    /// The losses in this frame, and between it and the one before: tuple of StreamLoss.
     #[getter]
     fn losses(&self, py: Python<'_>) -> Py<PyTuple> {
         self.losses.clone_ref(py)

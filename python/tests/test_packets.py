@@ -56,7 +56,7 @@ def test_packets_of_a_step_are_read_before_the_next(frames):
     first, read = camera.step(frames[0]), fv.Camera().step(frames[0]).packets()
     assert first.packets() == read
     second = camera.step(frames[1])
-    # Those of the first were read in time.
+    # The packets of the first outcome were read in time.
     assert first.packets(scores=True) and first.packets() == read
     camera.step(frames[2])
     with pytest.raises(RuntimeError, match=r"pixels are gone, because .*read outcome.packets\(\) before the next step, or keep it"):
