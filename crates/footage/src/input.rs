@@ -15,7 +15,7 @@ mod skipped_entries;
 mod zip_feed;
 mod zip_listing;
 
-use self::zip_feed::ZipImages;
+use self::zip_feed::open_zip;
 pub(crate) use content_kind::unread_image_type_by_content;
 pub(crate) use entry::{EntryKind, entries, entry_kind};
 pub use expansion::matched_images;
@@ -234,7 +234,8 @@ fn open_images(
             return Err(FootageError::Option { option: "--images", problem: sheets });
         }
     };
-    Ok(Box::new(ImageFiles::new(files, bits, options, kind)))
+    let bytes_of = |_, path: &Path| picture::bytes_of(path);
+    Ok(Box::new(ImageFiles::new(files, Box::new(bytes_of), bits, options, kind)))
 }
 
 fn open_file_feed(
@@ -252,7 +253,7 @@ fn open_file_feed(
             let name = path.display().to_string();
             Box::new(open_y4m(name, open_unpacked(path)?, bits, options)?)
         }
-        file_kind::FileKind::Zip => Box::new(ZipImages::open(path, bits, options)?),
+        file_kind::FileKind::Zip => Box::new(open_zip(path, bits, options)?),
         file_kind::FileKind::Video => {
             let sought = options.selection.start_us.filter(|_| !options.numbered);
             let start = sought.unwrap_or(0);

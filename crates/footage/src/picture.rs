@@ -37,16 +37,7 @@ use foveate_frame::{convert_depth, luma};
 /// Fails if the file cannot be read, is too large, truncated or damaged, or is not a supported
 /// image.
 pub fn read(path: &Path, bits: u32) -> Result<Frame, FootageError> {
-    read_converted(path, bits, ImageConversion::default())
-}
-
-/// Reads an image file with a conversion, see [`read`].
-pub(crate) fn read_converted(
-    path: &Path,
-    bits: u32,
-    conversion: ImageConversion,
-) -> Result<Frame, FootageError> {
-    decode_converted(&bytes_of(path)?, path, bits, conversion)
+    decode(&bytes_of(path)?, path, bits)
 }
 
 /// Decodes the bytes of an image. Errors name `path`.
@@ -116,7 +107,8 @@ fn decode_image(bytes: &[u8], path: &Path) -> Result<DynamicImage, FootageError>
     Ok(image)
 }
 
-fn bytes_of(path: &Path) -> Result<Vec<u8>, FootageError> {
+/// Returns the bytes of an image file, up to the limit of a file.
+pub(crate) fn bytes_of(path: &Path) -> Result<Vec<u8>, FootageError> {
     let unreadable = |problem: String| FootageError::Unreadable { path: path.to_owned(), problem };
     let file = open_file(path).map_err(|error| unreadable(error.to_string()))?;
     let mut bytes = Vec::new();

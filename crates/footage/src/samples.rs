@@ -60,9 +60,7 @@ impl SampleLayout {
         };
         ByteFrame::from_words(width, height, bits, pixels)
     }
-}
 
-impl SampleLayout {
     /// Makes the frame of a mosaic, whose pixels are single samples, with `bits` bits per pixel.
     pub(crate) fn frame_of_mosaic(
         self,

@@ -137,22 +137,22 @@ pub(super) fn zip_images(
     }
     let paths: Vec<&Path> = found.iter().map(|(_, path)| path.as_path()).collect();
     let places = ArchiveFolder::new(&paths, images);
-    let nested = found.iter().find_map(|(_, path)| places.folders_above(path).first().cloned());
+    let placed = found.into_iter().map(|(index, path)| (*index, path, places.folders_above(path)));
+    let placed: Vec<(usize, &PathBuf, Vec<String>)> = placed.collect();
+    let nested = placed.iter().find_map(|(_, _, folders)| folders.first());
     if let (ImageRelation::Clip, Some(folder)) = (images, nested) {
         return Err(refused(format!(
             "its images lie in several folders, one of them `{folder}`, so they are not one clip; unpack it and \
              name a folder, or read a set with --images set"
         )));
     }
-    let mut listed: Vec<ZipImage> = found
-        .into_iter()
-        .filter(|(_, path)| places.folders_above(path).len() <= 1)
-        .map(|(index, path)| ZipImage {
-            index: *index,
-            path: path.clone(),
-            label: places.folders_above(path).into_iter().next(),
-        })
-        .collect();
+    let placed = placed.into_iter().filter(|(_, _, folders)| folders.len() <= 1);
+    let listed = placed.map(|(index, path, folders)| ZipImage {
+        index,
+        path: path.clone(),
+        label: folders.into_iter().next(),
+    });
+    let mut listed: Vec<ZipImage> = listed.collect();
     // As in a folder, images without a label come first.
     listed.sort_by_key(|image| image.label.is_some());
     Ok(listed)

@@ -2,7 +2,7 @@
 //! Image files and scenes as feeds.
 
 use std::collections::BTreeSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use foveate_scenes::{Scene, SceneFrames, SceneParameters};
 
@@ -26,11 +26,14 @@ impl ImageFile {
     }
 }
 
-/// A feed of image files in a given order.
+/// Returns the bytes of an image, by its number among the files and by its path.
+pub(crate) type ImageBytes = Box<dyn FnMut(usize, &Path) -> Result<Vec<u8>, FootageError> + Send>;
+
+/// A feed of images in a given order, which are files or lie in an archive.
 pub(crate) struct ImageFiles {
-    files: std::vec::IntoIter<ImageFile>,
+    files: std::iter::Enumerate<std::vec::IntoIter<ImageFile>>,
+    bytes_of: ImageBytes,
     total: u64,
-    next: u64,
     bits: u32,
     rate: FrameRate,
     kind: SourceKind,
@@ -41,6 +44,7 @@ pub(crate) struct ImageFiles {
 impl ImageFiles {
     pub(crate) fn new(
         files: Vec<ImageFile>,
+        bytes_of: ImageBytes,
         bits: u32,
         options: &InputOptions,
         kind: SourceKind,
@@ -54,9 +58,9 @@ impl ImageFiles {
             SetLabels::Names(names.into_iter().cloned().collect())
         };
         Self {
-            files: files.into_iter(),
+            files: files.into_iter().enumerate(),
+            bytes_of,
             total,
-            next: 0,
             bits,
             rate: options.frame_rate,
             kind,
@@ -68,12 +72,12 @@ impl ImageFiles {
 
 impl FrameFeed for ImageFiles {
     fn next(&mut self) -> Result<Option<SourceFrame>, FootageError> {
-        let Some(ImageFile { path, label }) = self.files.next() else {
+        let Some((number, ImageFile { path, label })) = self.files.next() else {
             return Ok(None);
         };
-        let frame = (&picture::read_converted(&path, self.bits, self.conversion)?).into();
-        let time_us = self.kind.time_us(self.rate, self.next);
-        self.next += 1;
+        let bytes = (self.bytes_of)(number, &path)?;
+        let frame = (&picture::decode_converted(&bytes, &path, self.bits, self.conversion)?).into();
+        let time_us = self.kind.time_us(self.rate, number as u64);
         Ok(Some(SourceFrame { name: path.display().to_string(), time_us, label, frame }))
     }
 
