@@ -44,15 +44,18 @@ step "build of the tests"
 cargo test --workspace --locked --quiet --no-run
 FOVEATE=$(realpath "${CARGO_TARGET_DIR:-target}/debug/foveate")
 export FOVEATE
-step "the engine of the live page, in a browser and natively"
-scripts/web.sh --test
-step "book"
+step "live page in a browser; book and Python package"
+# A browser waits for pictures and timers half of the time, in which the package is built.
+scripts/web.sh --test >"$beside" 2>&1 &
+browser=$!
 scripts/book.sh
-step "Python package; the documents with it, workflow on this machine, mutated files for every reader, ONNX's tests of operators"
 wait "$installed" || { cat "$packages" && exit 1; }
 FOVEATE_PACKAGE=$(env --unset=FOVEATE_PACKAGE scripts/python.sh)
 scripts/checks/shared_build.py "${CARGO_TARGET_DIR:-target}/wheels/build.log"
 export FOVEATE_PACKAGE
+wait "$browser" || { cat "$beside" && exit 1; }
+cat "$beside"
+step "tests of the Python package; documents, workflow on this machine, mutated files for every reader, ONNX's tests of operators"
 # Two jobs run in parallel, each on one of two processors.
 python=$(scripts/python_tools.sh --package)/python
 (JOBS=1 scripts/snippets.sh && scripts/workflow.sh && JOBS=1 scripts/checks/fuzz.py --quick &&
