@@ -23,6 +23,7 @@ mod outputs;
 mod page;
 mod pixel_event_format;
 mod process;
+mod standard_input;
 mod stress;
 mod threads;
 mod view;
@@ -57,6 +58,7 @@ pub(crate) use link::LinkArgs;
 pub(crate) use live::LiveArgs;
 pub(crate) use outputs::OutputArgs;
 pub(crate) use process::ProcessArgs;
+pub(crate) use standard_input::refuse_second_reader;
 pub(crate) use stress::StressArgs;
 pub(crate) use view::ViewArgs;
 

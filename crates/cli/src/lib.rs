@@ -21,7 +21,7 @@ mod serving;
 use std::ffi::OsString;
 
 use args::{Cli, Command};
-use clap::Parser;
+use clap::{CommandFactory, FromArgMatches};
 use foveate_toolchain::end_all_process_families;
 
 /// Runs the command with these words, of which the first is its name, and returns its exit code.
@@ -29,7 +29,7 @@ use foveate_toolchain::end_all_process_families;
 #[must_use]
 pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
     let words: Vec<OsString> = words.into_iter().collect();
-    let cli = match Cli::try_parse_from(&words) {
+    let cli = match parse(&words) {
         Ok(cli) => cli,
         Err(error) => {
             notice::print_usage(&error);
@@ -46,6 +46,14 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
     // A thread that still waits for a tool does not end that tool.
     end_all_process_families();
     code
+}
+
+/// Parses the words. Two readers of standard input are an error.
+fn parse(words: &[OsString]) -> Result<Cli, clap::Error> {
+    let mut command = Cli::command();
+    let matches = command.try_get_matches_from_mut(words)?;
+    args::refuse_second_reader(&mut command, &matches)?;
+    Cli::from_arg_matches(&matches)
 }
 
 fn run_command(cli: &Cli, words: &[OsString]) -> Result<(), error::CliError> {

@@ -16,6 +16,7 @@ mod zip_feed;
 mod zip_listing;
 
 use self::zip_feed::open_zip;
+use content_kind::is_archive_start;
 pub(crate) use content_kind::unread_image_type_by_content;
 pub(crate) use entry::{EntryKind, entries, entry_kind};
 pub use expansion::matched_images;
@@ -29,7 +30,7 @@ pub(crate) use skipped_entries::{
 };
 pub(crate) use zip_listing::{image_names_of_zip, skipped_of_zip};
 
-use std::io::{BufRead, BufReader};
+use std::io::{self, BufRead, BufReader};
 use std::path::{Path, PathBuf};
 
 use foveate_camera::CameraConfig;
@@ -185,10 +186,15 @@ fn open_stream(
     options: &InputOptions,
 ) -> Result<StreamFeed<Y4mFormat>, FootageError> {
     let (name, stream) = open_once(input, &options.interrupt)?;
-    let stream = unpacked(stream).map_err(|error| match options.interrupt.is_set() {
+    let failed = |error: io::Error| match options.interrupt.is_set() {
         true => FootageError::Interrupted,
         false => FootageError::Y4m { name: name.clone(), problem: error.to_string() },
-    })?;
+    };
+    let mut stream = unpacked(stream).map_err(failed)?;
+    if is_archive_start(stream.fill_buf().map_err(failed)?) {
+        let problem = "its directory is at its end, which a pipe gives last; write it into a file and name that";
+        return Err(FootageError::Zip { path: name.into(), problem: problem.to_owned() });
+    }
     open_y4m(name, stream, bits, options)
 }
 

@@ -92,6 +92,17 @@ pub enum LinkError {
         /// The time of the frame in microseconds.
         time_us: u64,
     },
+    /// The times of a clip span more than the clocks of a link can count.
+    #[error(
+        "`{clip}` lasts {seconds} s, but a link is timed for at most 9223372036 s, which is 292 years; check the unit \
+         of its times, for example --timestamp-unit"
+    )]
+    TooLong {
+        /// The name of the clip.
+        clip: String,
+        /// The duration in seconds, rounded down.
+        seconds: u64,
+    },
     /// The codecs do not support this depth.
     #[error(
         "the design has {bits} bits per pixel, but codecs are compared at 8; set frame.pixel_bits = 8"

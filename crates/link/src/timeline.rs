@@ -7,6 +7,13 @@ use crate::LinkError;
 /// The number of nanoseconds of a microsecond.
 const NS_PER_US: u64 = 1000;
 
+/// The number of microseconds of a second.
+const US_PER_S: u128 = 1_000_000;
+
+/// The longest clip in ns, half of what 64 bits hold: what waits for the link at the end of a clip
+/// is sent after it.
+const MAX_NS: u64 = u64::MAX / 2;
+
 /// The times of a clip in ns. After the last frame the sensor goes on at the mean interval.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Timeline {
@@ -20,7 +27,8 @@ impl Timeline {
     /// microseconds.
     ///
     /// # Errors
-    /// Fails if there are fewer than two frames, or if a frame does not begin after the one before.
+    /// Fails if there are fewer than two frames, if a frame does not begin after the one before, or if
+    /// the clip lasts more than 2^63 - 1 ns.
     pub fn new(clip: &str, times_us: &[u64], rows: u32) -> Result<Self, LinkError> {
         let (&[first, ..], &[.., last]) = (times_us, times_us) else {
             return Err(LinkError::TooFewFrames { clip: clip.to_owned(), frames: 0 });
@@ -40,10 +48,13 @@ impl Timeline {
         // The last frame lasts as long as the others on average.
         let (span, intervals) = (u128::from(last - first), u128::from(frames - 1));
         let duration = (span * (intervals + 1) + intervals / 2) / intervals;
-        let duration = u64::try_from(duration).unwrap_or(u64::MAX);
-        let starts: Vec<u64> =
-            times_us.iter().map(|time| (time - first).saturating_mul(NS_PER_US)).collect();
-        Ok(Self { starts, end: duration.saturating_mul(NS_PER_US), rows: rows.into() })
+        let end = u64::try_from(duration * u128::from(NS_PER_US)).ok().filter(|&end| end <= MAX_NS);
+        let end = end.ok_or_else(|| LinkError::TooLong {
+            clip: clip.to_owned(),
+            seconds: u64::try_from(duration / US_PER_S).unwrap_or(u64::MAX),
+        })?;
+        let starts = times_us.iter().map(|time| (time - first) * NS_PER_US).collect();
+        Ok(Self { starts, end, rows: rows.into() })
     }
 
     /// Returns the number of frames of the clip.

@@ -47,6 +47,14 @@ fn check_reads_standard_input() {
     let long = check(&"#".repeat((1 << 20) + 1), &["check", "-"]);
     let said = String::from_utf8(long.stderr).unwrap();
     assert!(said.contains("`standard input`") && said.contains("larger than 1 MiB"), "{said}");
+    // A configuration would leave nothing for frames or packets.
+    for command in ["simulate", "decode", "link"] {
+        let twice = check("", &[command, "--config", "-", "-", "-o", "out"]);
+        let said = String::from_utf8(twice.stderr).unwrap();
+        let is_refused = twice.status.code() == Some(2)
+            && said.contains("`--config -` and `-` exclude each other");
+        assert!(is_refused && said.contains(command), "{said}");
+    }
 }
 
 /// The card of every organization shows what irrelevant regions send, and benches count it.

@@ -43,6 +43,13 @@ fn a_stream_comes_through_standard_input() {
     let said = String::from_utf8(output.stderr).unwrap();
     assert!(said.contains("`cut` is not complete: after 2 frames"), "{said}");
     assert_eq!(json(&dir.path().join("cut/summary.json"))["complete"], false);
+    let archive =
+        foveate(&["simulate", "-", "-o", "none"]).write_stdin("PK\x03\x04").output().unwrap();
+    let said = String::from_utf8(archive.stderr).unwrap();
+    assert!(
+        said.contains("ZIP archive `standard input`") && said.contains("write it into a file"),
+        "{said}"
+    );
     let output = foveate(&["simulate", "-", "-o", "none"]).write_stdin("").output().unwrap();
     assert_eq!(output.status.code(), Some(2));
 }

@@ -74,13 +74,18 @@ pub(crate) fn content_kind_of(start: &[u8]) -> ContentKind {
         ContentKind::Video
     } else if start.starts_with(&idx::MAGIC) {
         ContentKind::DataSet
-    } else if ZIP_MAGICS.iter().any(|magic| start.starts_with(magic)) {
+    } else if is_archive_start(start) {
         ContentKind::Archive
     } else if is_text(start) {
         ContentKind::Text
     } else {
         ContentKind::Unknown
     }
+}
+
+/// Returns true for the start of a ZIP archive.
+pub(crate) fn is_archive_start(start: &[u8]) -> bool {
+    ZIP_MAGICS.iter().any(|magic| start.starts_with(magic))
 }
 
 /// Returns true for the start of a supported image. Types whose signature has two letters need more

@@ -2,7 +2,7 @@
 //! Patterns of names, such as `frames/*.png`.
 
 use std::collections::HashSet;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use glob::{MatchOptions, Pattern};
 
@@ -54,9 +54,19 @@ fn no_match_error(text: &str, files: &[PathBuf]) -> FootageError {
         EntryKind::Skipped(Some(SkipReason::ImageType { name })) => {
             Some(FootageError::ImageType { path: path.clone(), name })
         }
+        EntryKind::Skipped(Some(SkipReason::Archive)) => Some(archive_error(text, path)),
         _ => None,
     });
     other.unwrap_or_else(|| FootageError::NoMatch { pattern: text.to_owned() })
+}
+
+/// Returns the error for a pattern or a name of numbered files that matches an archive.
+pub(super) fn archive_error(text: &str, archive: &Path) -> FootageError {
+    let problem = format!(
+        "`{text}` matches archives, such as `{}`, but a pattern is for images; name one archive",
+        archive.display()
+    );
+    FootageError::Option { option: "the pattern", problem }
 }
 
 /// Returns the files that a pattern matches and that are not read.

@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use super::entry::{EntryKind, entries, entry_kind};
+use super::pattern::archive_error;
 use super::skip_reason::{SkipReason, SkippedInput};
 use crate::FootageError;
 use crate::source::file_feeds::ImageFile;
@@ -54,12 +55,18 @@ impl SequenceName {
 
     /// Returns the number in a name; `None` for another name.
     fn number_of(&self, name: &str) -> Option<u128> {
-        let digits = name.strip_prefix(&self.before)?.strip_suffix(&self.after)?;
-        let is_number = digits.bytes().all(|byte| byte.is_ascii_digit());
+        let digits = self.digits_of(name)?;
         // A longer number has no zeros in front, and so `f%02d` does not match `f0012`.
         let is_padded =
             digits.len() == self.digits || (digits.len() > self.digits && !digits.starts_with('0'));
-        if is_number && is_padded { digits.parse().ok() } else { None }
+        if is_padded { digits.parse().ok() } else { None }
+    }
+
+    /// Returns the digits in a name, however many there are; `None` for another name.
+    fn digits_of<'a>(&self, name: &'a str) -> Option<&'a str> {
+        let digits = name.strip_prefix(&self.before)?.strip_suffix(&self.after)?;
+        let is_number = !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit());
+        is_number.then_some(digits)
     }
 
     fn path_of(&self, number: u128) -> PathBuf {
@@ -92,15 +99,42 @@ impl SequenceName {
                         problem: "it is not a file".to_owned(),
                     }
                 }
+                EntryKind::Skipped(Some(SkipReason::Archive)) => archive_error(text, path),
                 EntryKind::Image | EntryKind::Video | EntryKind::Skipped(_) => {
                     FootageError::UnsupportedType { path: path.clone() }
                 }
             });
         }
         if files.is_empty() {
-            return Err(FootageError::NoMatch { pattern: text.to_owned() });
+            return Err(self
+                .other_width_error(text)?
+                .unwrap_or_else(|| FootageError::NoMatch { pattern: text.to_owned() }));
         }
         Ok(files.into_iter().map(|(_, path)| ImageFile::plain(path)).collect())
+    }
+
+    /// Returns the error for a name that no file has, if there are files whose numbers have another
+    /// number of digits.
+    fn other_width_error(&self, text: &str) -> Result<Option<FootageError>, FootageError> {
+        let files = entries(&self.folder)?;
+        let found = files.iter().find_map(|path| {
+            let digits = self.digits_of(path.file_name()?.to_str()?)?;
+            (entry_kind(path) == EntryKind::Image).then_some((path, digits))
+        });
+        Ok(found.map(|(path, digits)| {
+            let number = if digits.starts_with('0') {
+                format!("%0{}d", digits.len())
+            } else {
+                "%d".to_owned()
+            };
+            let [before, after] = [&self.before, &self.after].map(|part| part.replace('%', "%%"));
+            let problem = format!(
+                "no image matches `{text}`, but `{}` exists; write `{}`",
+                path.display(),
+                Path::new(text).with_file_name(format!("{before}{number}{after}")).display()
+            );
+            FootageError::Option { option: "the pattern", problem }
+        }))
     }
 
     /// Returns the first missing file of each gap between the numbers.

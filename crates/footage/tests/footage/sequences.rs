@@ -48,7 +48,23 @@ fn a_sequence_without_files_is_refused() {
     let error = |name: &str| {
         opened(&dir.path().join(name), 8, &InputOptions::default()).err().unwrap().to_string()
     };
-    assert!(error("f%03d.pgm").contains("no image matches"));
+    let problem = error("f%03d.pgm");
+    assert!(
+        problem.contains("f1.pgm` exists; write `") && problem.ends_with("/f%d.pgm`"),
+        "{problem}"
+    );
+    assert!(error("g%03d.pgm").contains("no image matches"));
+    write(dir.path(), &["100%-007.pgm"]);
+    let problem = error("100%%-%d.pgm");
+    assert!(problem.ends_with("/100%%-%03d.pgm`"), "{problem}");
+    fs::write(dir.path().join("a1.zip"), "PK\x05\x06").unwrap();
+    for name in ["a%d.zip", "a*.zip"] {
+        let problem = error(name);
+        assert!(
+            problem.contains("a1.zip`, but a pattern is for images; name one archive"),
+            "{problem}"
+        );
+    }
     assert!(error("none/f%03d.pgm").contains("cannot read"));
     // Other names with a percent sign are names of files.
     assert!(error("f%x.pgm").contains("does not exist"));

@@ -155,4 +155,16 @@ fn times_that_make_no_rate_are_refused() {
     assert!(refused(&[]).contains("`clip` has 0 frame"));
     assert!(refused(&[7]).contains("`clip` has 1 frame"));
     assert!(refused(&[0, 10, 10]).starts_with("frame 2 of `clip` is at 10 us"));
+    // Two frames last twice the time between them, and 2^63 - 1 ns are the limit.
+    let longest = i64::MAX as u64 / 1000 / 2;
+    let timeline = Timeline::new("clip", &[5, longest + 5], 1).unwrap();
+    assert_eq!(timeline.start_ns(1), longest * 1000);
+    assert_eq!(timeline.end_ns(), longest * 2000);
+    let problem = refused(&[5, longest + 6]);
+    assert!(
+        problem
+            .starts_with("`clip` lasts 9223372036 s, but a link is timed for at most 9223372036 s"),
+        "{problem}"
+    );
+    assert!(refused(&[0, u64::MAX]).starts_with("`clip` lasts 36893488147419 s"));
 }
