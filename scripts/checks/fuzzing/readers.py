@@ -5,10 +5,12 @@ A reader is one format of a file that the program reads; such a file may come fr
 """
 import dataclasses
 import gzip
+import io
 import pathlib
 import shutil
 import struct
 import subprocess
+import zipfile
 from collections.abc import Callable
 
 from .answer import Answer
@@ -37,12 +39,47 @@ def simulate_set(_bench, folder, path):
     return ["simulate", images, "--labels", path, "-o", "out", *NO_PICTURES]
 
 
-def boxes(_bench, folder, path):
-    """Makes frames with the names 000001.pgm and so on, to which boxes belong."""
+def simulate_classes(_bench, _folder, path):
+    return ["simulate", path, "-o", "out", *NO_PICTURES, "--images", "set"]
+
+
+def simulate_raw(_bench, _folder, path):
+    return ["simulate", path, "-o", "out", *NO_PICTURES, "--raw", f"{WIDTH}x{HEIGHT},gray16le", "--bayer", "rggb"]
+
+
+def simulate_upright(_bench, _folder, path):
+    return ["simulate", path, "-o", "out", *NO_PICTURES, "--orientation", "upright"]
+
+
+def timestamps(_bench, folder, path):
+    """Makes images whose times are the mutated file."""
+    return ["simulate", images_in(folder), "--timestamps", path, "--timestamp-unit", "ns", "-o", "out", *NO_PICTURES]
+
+
+def stalls(_bench, _folder, path):
+    return ["simulate", "scene:street", *CLIP, "--clocks", "--sink-stalls", path, "-o", "out", *NO_PICTURES]
+
+
+def zones(_bench, _folder, path):
+    return ["check", "--quiet", "--set", f"frame={{width={WIDTH},height={HEIGHT}}}", "--set", f'zones.map="{path}"']
+
+
+def cells(_bench, _folder, path):
+    return ["estimate", "--preset", "bare", "--liberty", path]
+
+
+def images_in(folder):
+    """Makes the images 000001.pgm to 000003.pgm in a folder, and returns it."""
     frames = folder / "frames"
     frames.mkdir()
     for number in range(1, 4):
         (frames / f"{number:06}.pgm").write_bytes(pgm())
+    return frames
+
+
+def boxes(_bench, folder, path):
+    """Makes frames with the names 000001.pgm and so on, to which boxes belong."""
+    frames = images_in(folder)
     if path.suffix == ".txt" and path.name == "000002.txt":
         # The folder of a YOLO set.
         path = path.parent
@@ -112,6 +149,48 @@ def verilog(_bench, folder, path):
 def pgm(offset=0):
     pixels = bytes((x * 5 + y * 3 + offset) % 256 for y in range(HEIGHT) for x in range(WIDTH))
     return b"P5\n%d %d\n255\n" % (WIDTH, HEIGHT) + pixels
+
+
+def archive(folders=("",)):
+    """Returns a ZIP archive with a stored and a compressed image in each of its folders."""
+    data = io.BytesIO()
+    with zipfile.ZipFile(data, "w") as file:
+        for place in folders:
+            for number, method in enumerate([zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED]):
+                file.writestr(zipfile.ZipInfo(f"{place}f{number}.pgm"), pgm(number), method)
+    return data.getvalue()
+
+
+def oriented_jpeg(program, folder):
+    """Makes a JPEG with an EXIF block that says that the image was turned."""
+    data = picture(container="jpg")(program, folder)
+    tags = struct.pack("<2sHIHHHIHHI", b"II", 42, 8, 1, 0x0112, 3, 1, 6, 0, 0)
+    block = b"Exif\0\0" + tags
+    return data[:2] + b"\xff\xe1" + struct.pack(">H", len(block) + 2) + block + data[2:]
+
+
+def class_map():
+    """Returns an image of classes for regions of 8x8 pixels."""
+    columns, rows = WIDTH // 8, HEIGHT // 8
+    return b"P5\n%d %d\n255\n" % (columns, rows) + bytes(i % 4 for i in range(columns * rows))
+
+
+def library():
+    """Returns a liberty file without a flip-flop, which is refused before Yosys starts."""
+    return b"""library (small) {
+  time_unit : "1ns"; voltage_unit : "1V"; capacitive_load_unit (1, pf); leakage_power_unit : "1nW"; nom_voltage : 1.8;
+  lu_table_template (slew_load) {
+    variable_1 : input_net_transition; variable_2 : total_output_net_capacitance; index_1 ("0.1, 1"); index_2 ("0.01, 0.1"); }
+  cell (NAND2) { area : 4; cell_leakage_power : 0.1;
+    pin (A) { direction : input; capacitance : 0.01; }
+    pin (B) { direction : input; capacitance : 0.01; }
+    pin (Y) { direction : output; function : "!(A&B)";
+      timing () { related_pin : "A"; timing_sense : negative_unate;
+        cell_rise (slew_load) { values ("0.1, 0.2", "0.3, 0.4"); }
+        cell_fall (slew_load) { values ("0.1, 0.2", \\
+          "0.3, 0.4"); } } } } /* the end */
+}
+"""
 
 
 def npy():
@@ -219,14 +298,24 @@ READERS = [
     Reader("board", "board.toml", board, text_of("crates/boards/boards/icebreaker.toml"), is_text=True),
     Reader("board-sensor", "sensor.toml", sensor_of_board, text_of("crates/boards/sensors/ov7670-qvga.toml"), is_text=True),
     Reader("accelerator", "accelerator.toml", accelerator, text_of("crates/accelerator/presets/eyeriss.toml"), is_text=True),
+    Reader("liberty", "cells.lib", cells, constant_sample(library()), is_text=True, sample_answer=Answer.REFUSED),
+    Reader("zone-map", "map.pgm", zones, constant_sample(class_map())),
     Reader("png", "picture.png", simulate, picture(container="png")),
     Reader("png-16-bit", "picture.png", simulate, picture("-pix_fmt", "gray16be", container="png")),
     Reader("apng", "picture.apng", simulate, encoded("-f", "apng", container="apng")),
     Reader("jpeg", "picture.jpg", simulate, picture(container="jpg")),
+    Reader("jpeg-upright", "picture.jpg", simulate_upright, oriented_jpeg),
     Reader("bmp", "picture.bmp", simulate, picture(container="bmp")),
     Reader("pgm", "picture.pgm", simulate, constant_sample(pgm())),
     Reader("pgm-text", "picture.pgm", simulate, constant_sample(b"P2\n4 4\n15\n" + b"1 2 3 4\n" * 4), is_text=True),
     Reader("pam", "picture.pam", simulate, picture("-pix_fmt", "rgb24", container="pam")),
+    Reader("zip", "pictures.zip", simulate, constant_sample(archive())),
+    Reader("zip-set", "pictures.zip", simulate_classes, constant_sample(archive(["cat/", "dog/"]))),
+    Reader("timestamps", "times.csv", timestamps, constant_sample(b"#timestamp [ns],filename\n" + b"".join(
+        b"%d,%06d.pgm\n" % (1_403_636_579_763_555_584 + 50_000_000 * number, number) for number in range(1, 4))), is_text=True),
+    Reader("raw", "clip.raw", simulate_raw, constant_sample(bytes(i * 7 % 256 for i in range(2 * WIDTH * HEIGHT * 3)))),
+    Reader("stalls", "stalls.csv", stalls, constant_sample(
+        b"clock,clocks\n" + b"".join(b"%d,%d\n" % (500 * i, 20 + i) for i in range(8))), is_text=True),
     Reader("mp4", "clip.mp4", simulate, encoded("-c:v", "libx264", "-pix_fmt", "yuv420p", container="mp4")),
     Reader("mkv", "clip.mkv", simulate, encoded("-c:v", "ffv1", container="mkv")),
     Reader("avi", "clip.avi", simulate, encoded("-c:v", "mjpeg", container="avi")),
