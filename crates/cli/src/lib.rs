@@ -53,7 +53,7 @@ fn parse(words: &[OsString]) -> Result<Cli, clap::Error> {
     let mut command = Cli::command();
     let matches = command.try_get_matches_from_mut(words)?;
     args::refuse_second_reader(&mut command, &matches)?;
-    Cli::from_arg_matches(&matches)
+    Cli::from_arg_matches(&matches).map_err(|error| error.format(&mut command))
 }
 
 fn run_command(cli: &Cli, words: &[OsString]) -> Result<(), error::CliError> {

@@ -574,11 +574,12 @@ fn every_tied_output_fails() {
         ),
         format!("hardware.sync = true\n{}", raster_toml(8, 1)),
     ];
-    let step = sampling_step(2);
-    let sampled = quick.iter().step_by(step);
-    sampled.for_each(|toml| assert_tied_outputs_fail(toml, BenchSimulator::Icarus));
-    let sampled = long.iter().step_by(step);
-    sampled.for_each(|toml| assert_tied_outputs_fail(toml, BenchSimulator::Verilator));
+    for (designs, simulator) in
+        [(&quick[..], BenchSimulator::Icarus), (&long[..], BenchSimulator::Verilator)]
+    {
+        let sampled = designs.iter().step_by(sampling_step(2));
+        sampled.for_each(|toml| assert_tied_outputs_fail(toml, simulator));
+    }
 }
 
 /// All sizes, folds, feeds, words and organizations: `cargo test -p foveate-cosim --test cosim --

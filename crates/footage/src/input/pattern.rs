@@ -50,23 +50,26 @@ pub(super) fn pattern_images(text: &str) -> Result<Vec<ImageFile>, FootageError>
 }
 
 fn no_match_error(text: &str, files: &[PathBuf]) -> FootageError {
-    let other = files.iter().find_map(|path| match entry_kind(path) {
-        EntryKind::Skipped(Some(SkipReason::ImageType { name })) => {
-            Some(FootageError::ImageType { path: path.clone(), name })
-        }
-        EntryKind::Skipped(Some(SkipReason::Archive)) => Some(archive_error(text, path)),
-        _ => None,
-    });
+    let other = files.iter().find_map(|path| unread_kind_error(text, path));
     other.unwrap_or_else(|| FootageError::NoMatch { pattern: text.to_owned() })
 }
 
-/// Returns the error for a pattern or a name of numbered files that matches an archive.
-pub(super) fn archive_error(text: &str, archive: &Path) -> FootageError {
-    let problem = format!(
-        "`{text}` matches archives, such as `{}`, but a pattern is for images; name one archive",
-        archive.display()
-    );
-    FootageError::Option { option: "the pattern", problem }
+/// Returns the error for a file that a pattern or a name of numbered files matches, if the file is
+/// an image of a type that is not read, or an archive.
+pub(super) fn unread_kind_error(text: &str, path: &Path) -> Option<FootageError> {
+    match entry_kind(path) {
+        EntryKind::Skipped(Some(SkipReason::ImageType { name })) => {
+            Some(FootageError::ImageType { path: path.to_owned(), name })
+        }
+        EntryKind::Skipped(Some(SkipReason::Archive)) => {
+            let problem = format!(
+                "`{text}` matches archives, such as `{}`, but a pattern is for images; name one archive",
+                path.display()
+            );
+            Some(FootageError::Option { option: "the pattern", problem })
+        }
+        _ => None,
+    }
 }
 
 /// Returns the files that a pattern matches and that are not read.

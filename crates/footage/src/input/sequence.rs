@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use super::entry::{EntryKind, entries, entry_kind};
-use super::pattern::archive_error;
+use super::pattern::unread_kind_error;
 use super::skip_reason::{SkipReason, SkippedInput};
 use crate::FootageError;
 use crate::source::file_feeds::ImageFile;
@@ -89,21 +89,18 @@ impl SequenceName {
         let files = self.files()?;
         let not_image = files.iter().find(|(_, path)| entry_kind(path) != EntryKind::Image);
         if let Some((_, path)) = not_image {
-            return Err(match entry_kind(path) {
-                EntryKind::Skipped(Some(SkipReason::ImageType { name })) => {
-                    FootageError::ImageType { path: path.clone(), name }
-                }
+            let error = match entry_kind(path) {
                 EntryKind::Folder | EntryKind::Skipped(Some(SkipReason::NotAFile)) => {
                     FootageError::Unreadable {
                         path: path.clone(),
                         problem: "it is not a file".to_owned(),
                     }
                 }
-                EntryKind::Skipped(Some(SkipReason::Archive)) => archive_error(text, path),
                 EntryKind::Image | EntryKind::Video | EntryKind::Skipped(_) => {
                     FootageError::UnsupportedType { path: path.clone() }
                 }
-            });
+            };
+            return Err(unread_kind_error(text, path).unwrap_or(error));
         }
         if files.is_empty() {
             return Err(self
