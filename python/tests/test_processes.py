@@ -184,8 +184,8 @@ if "-V" in sys.argv:
     sys.exit(print("Yosys 0.23 (git sha1 7ce5011c24b)"))
 with open("netlist.json", "w") as file:
     file.write('{{"modules": {{"rpu": {{"cells": {{}}, "attributes": {{')
-    file.write(", ".join(f'"attribute{{number}}": "1"' for number in range(1000000)))
-    file.write("}}}}}}")
+    file.write(", ".join(['"attribute": "1"'] * 8000000))
+    file.write("}}}}}}}}")
 open("netlist.v", "w").close()
 open({marks!r} + "/" + ("whole" if "write_verilog" in open(sys.argv[-1]).read() else "leaves"), "w").close()
 """
@@ -207,7 +207,7 @@ def test_ctrl_c_ends_an_estimate_while_its_netlist_is_read(tmp_path):
     process.send_signal(signal.SIGINT)
     interrupt_time = time.monotonic()
     _, errors = process.communicate(timeout=60)
-    assert time.monotonic() - interrupt_time < 1.5
+    assert time.monotonic() - interrupt_time < 4
     assert process.returncode == -signal.SIGINT and errors.rstrip().endswith("KeyboardInterrupt")
 
 

@@ -46,7 +46,7 @@ def visit(tmp_path):
 
     def visit(browser, address, ready="!!window.foveate", permissions=(), before="", folded=False, **options):
         context = browser.new_context(**{"viewport": {"width": 1280, "height": 800}, **options})
-        context.set_default_timeout(8000)
+        context.set_default_timeout(20000)
         contexts.append(context)
         context.grant_permissions(["clipboard-read", "clipboard-write", *permissions])
         # A script that runs before those of the page.

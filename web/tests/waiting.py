@@ -4,9 +4,14 @@
 import time
 
 
-def until(page, expression, arg=None, timeout=8):
-    """Waits until an expression holds. Playwright's own way compiles text in the page, which its policy forbids."""
+def eventually(holds, fault, timeout=20):
+    """Waits until `holds()` is true, at most `timeout` seconds; `fault()` is the text of the error."""
     end = time.monotonic() + timeout
-    while not page.evaluate(expression, arg):
-        assert time.monotonic() < end, f"after {timeout} s not yet: {expression}; the page says {page.inner_text('#notice')!r}"
+    while not holds():
+        assert time.monotonic() < end, f"after {timeout} s not yet: {fault()}"
         time.sleep(0.005)
+
+
+def until(page, expression, arg=None, timeout=20):
+    """Waits until an expression holds. Playwright's own way compiles text in the page, which its policy forbids."""
+    eventually(lambda: page.evaluate(expression, arg), lambda: f"{expression}; the page says {page.inner_text('#notice')!r}", timeout)
