@@ -3,12 +3,12 @@
 //! `elaborated.rs` tests warnings of Icarus.
 
 use crate::common::{
-    EXTRA_RASTER_DESIGNS, covering, design, pipelined_matrix, raster_matrix, serial_matrix,
+    EXTRA_RASTER_DESIGNS, covering_values, design, pipelined_matrix, raster_matrix, serial_matrix,
 };
 use foveate_design::RasterMemory;
 use foveate_emit::{Top, verilog};
 use foveate_toolchain::iverilog::{self, IverilogJob};
-use foveate_toolchain::testing::{require_tools, sampling_step};
+use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::yosys::{self, YosysJob};
 use foveate_toolchain::{Cache, Source, Tool, ToolError, Toolchain, verilator};
 use rayon::prelude::*;
@@ -34,12 +34,7 @@ fn check_each_design(
 fn linted_designs() -> Vec<String> {
     let matrices = [pipelined_matrix(), serial_matrix(), raster_matrix()];
     let more = EXTRA_RASTER_DESIGNS.map(str::to_owned);
-    [matrices.map(covering).concat(), more.to_vec()].concat()
-}
-
-/// Returns every `step`-th design in most runs. `scripts/lint.sh` lints more designs than this file.
-fn sampled(designs: Vec<String>, step: usize) -> Vec<String> {
-    designs.into_iter().step_by(sampling_step(step)).collect()
+    [matrices.map(covering_values).concat(), more.to_vec()].concat()
 }
 
 #[test]
@@ -48,7 +43,7 @@ fn verilator_has_no_warning() {
         return;
     }
     let toolchain = Toolchain::system();
-    check_each_design(&sampled(linted_designs(), 2), |sources| {
+    check_each_design(&linted_designs(), |sources| {
         verilator::lint(&toolchain, sources, "rcm", None)
     });
 }
@@ -59,7 +54,7 @@ fn yosys_has_no_warning() {
         return;
     }
     let (toolchain, cache) = (Toolchain::system(), Cache::temporary().unwrap());
-    check_each_design(&sampled(linted_designs(), 3), |sources| {
+    check_each_design(&linted_designs(), |sources| {
         let names: Vec<&str> = sources.iter().map(|(name, _)| name.as_str()).collect();
         let script = format!(
             "read_verilog {}\nhierarchy -check -top rcm\nproc\nopt_clean\ncheck -assert\n",
@@ -81,7 +76,7 @@ fn the_memories_of_a_raster_core_are_those_that_it_says() {
         return;
     }
     let (toolchain, cache) = (Toolchain::system(), Cache::temporary().unwrap());
-    for toml in sampled(covering(raster_matrix()), 3) {
+    for toml in covering_values(raster_matrix()) {
         let design = design(&toml);
         let sources: Vec<Source> =
             verilog(&design, Top::Rcm).into_iter().map(|file| (file.path, file.contents)).collect();

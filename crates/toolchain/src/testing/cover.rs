@@ -3,7 +3,7 @@
 //!
 //! A matrix has more designs than a slow tool can build in every run of the tests. Most faults
 //! depend on one key of the configuration or on two, so [`cover`] takes few designs in which every
-//! pair of values of the matrix still occurs.
+//! pair of values of the matrix still occurs, or, for the slowest tools, every value.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,6 +12,8 @@ use super::takes_whole_lists;
 /// The density with which a test covers a matrix of designs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CoverDepth {
+    /// Fewest designs, in which every value of a key that occurs in the matrix occurs.
+    Values,
     /// Few designs, in which every pair of values of two keys that occurs in the matrix occurs.
     Pairs,
     /// All designs of the matrix.
@@ -23,7 +25,18 @@ impl CoverDepth {
     /// `FOVEATE_WHOLE` is set, and otherwise pairs.
     #[must_use]
     pub fn of_run() -> Self {
-        if takes_whole_lists() { Self::Whole } else { Self::Pairs }
+        Self::Pairs.unless_whole()
+    }
+
+    /// Returns the depth of this run of a test with a very slow tool: whole if the environment
+    /// variable `FOVEATE_WHOLE` is set, and otherwise values.
+    #[must_use]
+    pub fn of_slow_run() -> Self {
+        Self::Values.unless_whole()
+    }
+
+    fn unless_whole(self) -> Self {
+        if takes_whole_lists() { Self::Whole } else { self }
     }
 }
 
@@ -32,21 +45,23 @@ impl CoverDepth {
 /// The size of the frame and the thresholds are numbers without a case of their own in the
 /// hardware, so they do not count.
 ///
-/// The choice is greedy: it takes the design that adds most pairs, and of equal ones the first.
+/// The choice is greedy: it takes the design that adds most pairs or values, and of equal ones the
+/// first.
 pub fn cover<T>(designs: Vec<T>, depth: CoverDepth, toml: impl Fn(&T) -> String) -> Vec<T> {
-    if depth == CoverDepth::Whole {
-        return designs;
-    }
-    let values: Vec<_> = designs.iter().map(|design| key_values(&toml(design))).collect();
-    let pairs = value_pairs(&values);
-    let mut missing: BTreeSet<usize> = pairs.iter().flatten().copied().collect();
+    let values = || designs.iter().map(|design| key_values(&toml(design))).collect::<Vec<_>>();
+    let items = match depth {
+        CoverDepth::Values => value_pairs(&values(), |one, other| one == other),
+        CoverDepth::Pairs => value_pairs(&values(), |_, _| true),
+        CoverDepth::Whole => return designs,
+    };
+    let mut missing: BTreeSet<usize> = items.iter().flatten().copied().collect();
     let mut taken = BTreeSet::new();
     while !missing.is_empty() {
-        let added = |&design: &usize| pairs[design].intersection(&missing).count();
+        let added = |&design: &usize| items[design].intersection(&missing).count();
         // `max_by_key` returns the last of equal ones, so the search goes backwards.
         let best = (0..designs.len()).rev().max_by_key(added);
-        let best = best.expect("a missing pair belongs to a design");
-        missing.retain(|pair| !pairs[best].contains(pair));
+        let best = best.expect("a missing item belongs to a design");
+        missing.retain(|item| !items[best].contains(item));
         taken.insert(best);
     }
     let numbered = designs.into_iter().enumerate();
@@ -71,16 +86,20 @@ fn key_values(toml: &str) -> BTreeMap<String, String> {
     values
 }
 
-/// Returns the pairs of values of every design. Each pair has a number.
-fn value_pairs(designs: &[BTreeMap<String, String>]) -> Vec<BTreeSet<usize>> {
+/// Returns the pairs of values of every design, of the keys whose places `counts` accepts. Each pair
+/// has a number. A value makes a pair with itself, too.
+fn value_pairs(
+    designs: &[BTreeMap<String, String>],
+    counts: impl Fn(usize, usize) -> bool,
+) -> Vec<BTreeSet<usize>> {
     let keys: BTreeSet<&String> = designs.iter().flat_map(BTreeMap::keys).collect();
     let mut numbers = BTreeMap::new();
     let mut pairs_of = |values: &BTreeMap<String, String>| {
         let values: Vec<_> = keys.iter().map(|&key| (key, values.get(key).cloned())).collect();
-        // A value makes a pair with itself, too, so that a matrix of one key is covered.
         let all =
             (0..values.len()).flat_map(|one| (one..values.len()).map(move |other| (one, other)));
-        let pairs = all.map(|(one, other)| (values[one].clone(), values[other].clone()));
+        let counted = all.filter(|&(one, other)| counts(one, other));
+        let pairs = counted.map(|(one, other)| (values[one].clone(), values[other].clone()));
         pairs
             .map(|pair| {
                 let next = numbers.len();
@@ -123,6 +142,17 @@ mod tests {
             count(|&(_, second, third)| (second, third)),
         ];
         assert_eq!(pairs, [12, 9, 12]);
+    }
+
+    #[test]
+    fn fewer_designs_have_every_value() {
+        let fewest = cover(matrix(), CoverDepth::Values, toml);
+        let count = |value: fn(&MatrixDesign) -> u32| {
+            fewest.iter().map(value).collect::<BTreeSet<_>>().len()
+        };
+        assert_eq!([count(|design| design.0), count(|design| design.1)], [3, 4]);
+        assert_eq!(count(|design| design.2.map_or(9, |third| third)), 3);
+        assert!((4..=5).contains(&fewest.len()), "{fewest:?}");
     }
 
     #[test]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Designs to emit: every value of the configuration occurs with every other at least once.
+//! Designs to emit, in which every value of the configuration occurs, mostly with every other.
 
 use foveate_design::{Design, DesignConfig};
 use foveate_toolchain::testing::{CoverDepth, cover};
@@ -8,6 +8,11 @@ use std::process::{Command, Stdio};
 /// Returns the designs of a matrix that cover it at the depth of this run.
 pub(crate) fn covering(matrix: Vec<String>) -> Vec<String> {
     cover(matrix, CoverDepth::of_run(), |toml| design(toml).config().to_toml())
+}
+
+/// Returns the designs of a matrix that cover it for a very slow tool.
+pub(crate) fn covering_values(matrix: Vec<String>) -> Vec<String> {
+    cover(matrix, CoverDepth::of_slow_run(), |toml| design(toml).config().to_toml())
 }
 
 /// Returns whether there is a Tcl interpreter. Prints a message if there is none, and panics if
