@@ -39,7 +39,9 @@ pub struct SynthesisJob {
     pub unit: String,
     /// The module of the array.
     pub array: String,
-    /// The parameters of the array and their values.
+    /// The parameters of the array and their values. Yosys names a module after parameters that are
+    /// set, even to their defaults, and orders nets by names, so the same array without them may
+    /// have a few LUTs more or fewer (305 in place of 299 in a raster core of 8x4 regions).
     pub parameters: Vec<(&'static str, u32)>,
 }
 

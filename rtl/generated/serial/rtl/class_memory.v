@@ -32,7 +32,8 @@ module class_memory #(
     endgenerate
 
     localparam WORDS = 1 << ADDRESS_BITS;
-    localparam [32*WORDS-1:0] FIRST = {{(32 * WORDS - 2 * REGIONS) {1'b0}}, CLASSES};
+    localparam SPARE_BITS = 32 * WORDS > 2 * REGIONS ? 32 * WORDS - 2 * REGIONS : 0;  // bits behind the last region
+    localparam [32*WORDS-1:0] FIRST = {{SPARE_BITS{1'b0}}, CLASSES};
 
     // Without a reset, because a reset keeps the map.
     reg committed_q = 1'b0;  // the bank that was committed last

@@ -99,7 +99,7 @@ module serial_flow #(
 
     generate
         for (i = 0; i < 16; i = i + 1) begin : g_weight
-            if (i / 4 <= RADIUS && i % 4 <= RADIUS) begin : g_product
+            if (FACTOR_BITS > 0 && i / 4 <= RADIUS && i % 4 <= RADIUS) begin : g_product
                 localparam [2*FACTOR_BITS-1:0] BY_ROW = {{FACTOR_BITS{1'b0}}, FACTORS[(i/4)*FACTOR_BITS+:FACTOR_BITS]};
                 localparam [2*FACTOR_BITS-1:0] BY_COLUMN = {{FACTOR_BITS{1'b0}}, FACTORS[(i%4)*FACTOR_BITS+:FACTOR_BITS]};
                 localparam [2*FACTOR_BITS-1:0] WEIGHT = BY_ROW * BY_COLUMN;
