@@ -3,7 +3,7 @@
 //! of noise, in which most regions are active, and frames in which as many as possible are active.
 
 use crate::stimulus::StimulusPattern::{self, *};
-use crate::stimulus::{FrameFeed, FrameGenerator, Random, Texture};
+use crate::stimulus::{FrameFeed, FrameGenerator, PatternAim, Random, Texture};
 use foveate_design::{Camera, RasterDesign};
 use foveate_frame::Frame;
 use foveate_model::FunctionalCamera;
@@ -122,7 +122,7 @@ fn draw_frame(
     turn: usize,
     random: &mut Random,
 ) -> Frame {
-    generator.draw(patterns, turn, true, false, random);
+    generator.draw(patterns, turn, true, PatternAim::Free, random);
     drawn_frame(generator)
 }
 

@@ -7,6 +7,17 @@ use super::stimulus_pattern::{PatternGenerator, StimulusPattern};
 use crate::error::CosimError;
 use foveate_frame::Frame;
 
+/// The choice of the data of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum PatternAim {
+    /// Patterns are drawn as they are.
+    Free,
+    /// About half of the regions are drawn near a minimum of the design.
+    NearMinimum,
+    /// Noise is drawn that is relevant with the thresholds of the design.
+    RelevantNoise,
+}
+
 /// The drawing states of all squares of a frame.
 pub(crate) struct FrameGenerator {
     /// The drawing state of each square.
@@ -28,26 +39,34 @@ impl FrameGenerator {
         Self { generators, side, size, bits: design.pixel_bits() }
     }
 
-    /// Draws the next frame. With `mixed` every region starts at another pattern, and with
-    /// `configured` about half of the regions are drawn near a minimum of the design.
+    /// Draws the next frame. With `mixed` every region starts at another pattern. Returns true if
+    /// noise was drawn that is relevant unless neighbors change its scores.
     pub(crate) fn draw(
         &mut self,
         patterns: &[StimulusPattern],
         turn: usize,
         mixed: bool,
-        configured: bool,
+        aim: PatternAim,
         random: &mut Random,
-    ) {
+    ) -> bool {
+        let mut has_relevant_noise = false;
         for (region, generator) in self.generators.iter_mut().enumerate() {
             let shift = if mixed { region } else { 0 };
             let pattern = patterns[(turn + shift) % patterns.len()];
-            // `MeanStep` already aims at a threshold.
-            if configured && pattern != StimulusPattern::MeanStep && random.one_in(2) {
-                generator.draw_near_minimum(pattern);
-            } else {
-                generator.draw(pattern);
+            match (aim, pattern) {
+                (PatternAim::RelevantNoise, StimulusPattern::Noise) => {
+                    has_relevant_noise |= generator.draw_relevant_noise();
+                }
+                // `MeanStep` already aims at a threshold.
+                (PatternAim::NearMinimum, pattern)
+                    if pattern != StimulusPattern::MeanStep && random.one_in(2) =>
+                {
+                    generator.draw_near_minimum(pattern);
+                }
+                _ => generator.draw(pattern),
             }
         }
+        has_relevant_noise
     }
 
     /// Draws the regions again for which `is_drawn` is true; they are numbered row by row.

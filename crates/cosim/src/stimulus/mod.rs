@@ -47,7 +47,7 @@ use foveate_design::Design;
 use foveate_frame::Frame;
 pub(crate) use frame_delivery::FrameDelivery;
 pub(crate) use frame_feed::FrameFeed;
-pub(crate) use frame_generator::FrameGenerator;
+pub(crate) use frame_generator::{FrameGenerator, PatternAim};
 pub(crate) use gap_pattern::GapPattern;
 pub(crate) use model_driver::{FrameLimit, ModelDriver, SequenceSurroundings};
 pub(crate) use pattern_scorer::PatternScores;

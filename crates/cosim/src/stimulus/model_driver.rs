@@ -7,6 +7,7 @@ use super::drain_timing::DrainTiming;
 use super::external_store::{ExternalStore, StoreFault};
 use super::frame_delivery::FrameDelivery;
 use super::frame_feed::FrameFeed;
+use super::frame_generator::PatternAim;
 use super::gap_pattern::GapPattern;
 use super::port_thresholds::PortThresholds;
 use super::port_zones::{ClassChoice, PortZones};
@@ -175,10 +176,9 @@ impl<'a, Receiver: ClockReceiver> ModelDriver<'a, Receiver> {
         }
     }
 
-    /// Returns true if the thresholds are those of the design, so that the data must be chosen to
-    /// meet them.
-    pub(super) fn thresholds_are_configured(&self) -> bool {
-        self.thresholds.are_configured()
+    /// Returns the choice of data, which must meet thresholds that are those of the design.
+    pub(super) fn pattern_aim(&self) -> PatternAim {
+        self.thresholds.pattern_aim()
     }
 
     /// Replaces the thresholds of the design, from now on.

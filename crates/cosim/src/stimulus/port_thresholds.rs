@@ -2,6 +2,7 @@
 //! The thresholds at the ports of a core, clock by clock.
 
 use super::decision_predictor::DecisionPredictor;
+use super::frame_generator::PatternAim;
 use super::port_zones::{ClassChoice, PortZones};
 use super::random::Random;
 use super::threshold_aimer::{ThresholdAim, ThresholdAimer};
@@ -84,10 +85,13 @@ impl<'a> PortThresholds<'a> {
         self.zones.as_ref()
     }
 
-    /// Returns true if the thresholds are those of the design, so that the data must be chosen to
-    /// meet them.
-    pub(super) fn are_configured(&self) -> bool {
-        self.aim == ThresholdAim::Configured
+    /// Returns the choice of data, which must meet thresholds that are those of the design.
+    pub(super) fn pattern_aim(&self) -> PatternAim {
+        match (self.aim, self.design.threshold_source()) {
+            (ThresholdAim::Configured, _) => PatternAim::NearMinimum,
+            (ThresholdAim::Independent, Mode::Constant) => PatternAim::RelevantNoise,
+            _ => PatternAim::Free,
+        }
     }
 
     /// Replaces the thresholds of the design, from now on.

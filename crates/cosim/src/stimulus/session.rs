@@ -17,6 +17,7 @@ use crate::level::CosimLevel;
 use crate::recording::Recorder;
 use foveate_design::{Design, PortRole};
 use foveate_frame::Frame;
+use foveate_model::FunctionalCamera;
 use std::sync::atomic::AtomicBool;
 
 /// The settings of a recording.
@@ -60,6 +61,9 @@ impl SequenceLimits {
 /// The number that is added to the turns of the sinks of a recording with few sequences: its first
 /// sink that stalls is then the one that loses most regions.
 const LOSSY_TURN_OFFSET: usize = 3;
+
+/// The number of frames of noise that are drawn to find one with a relevant region.
+const MAX_NOISE_FRAMES: usize = 64;
 
 /// The state of a recording.
 pub(super) struct StimulusSession<'a> {
@@ -158,10 +162,7 @@ impl<'a> StimulusSession<'a> {
                 self.pause_between_frames(drained, gaps)?;
                 self.name_clocks(sequence.name, frame as u64, None);
             }
-            let configured = self.driver.thresholds_are_configured();
-            let (FrameSequence { patterns, is_mixed, .. }, turn) = (*sequence, frame + round);
-            self.frame_generator.draw(patterns, turn, is_mixed, configured, &mut self.random);
-            let drawn = self.frame_generator.frame()?;
+            let drawn = self.draw_frame(sequence, frame + round)?;
             match sequence.deliveries.get(frame) {
                 Some(&delivery) => self.driver.send_damaged_frame(&drawn, delivery, gaps)?,
                 None => {
@@ -175,6 +176,30 @@ impl<'a> StimulusSession<'a> {
             SequenceEnd::Drained => self.drain(&last, gaps),
             end => self.driver.end_sequence(end, &last, gaps),
         }
+    }
+
+    /// Draws the next frame of a directed sequence. Noise that must be relevant is drawn again while
+    /// no region of the frame is.
+    fn draw_frame(&mut self, sequence: &FrameSequence, turn: usize) -> Result<Frame, CosimError> {
+        let (FrameSequence { patterns, is_mixed, .. }, aim) =
+            (*sequence, self.driver.pattern_aim());
+        for _ in 0..MAX_NOISE_FRAMES {
+            let random = &mut self.random;
+            let is_noise = self.frame_generator.draw(patterns, turn, is_mixed, aim, random);
+            if !is_noise || self.has_relevant_region(&self.frame_generator.frame()?) {
+                break;
+            }
+        }
+        self.frame_generator.frame()
+    }
+
+    /// Returns true if a region of a first frame is relevant with the thresholds of the design, or
+    /// if the frame is a square, whose halo is drawn with it.
+    fn has_relevant_region(&self, frame: &Frame) -> bool {
+        let is_square =
+            (frame.width(), frame.height()) != (self.design.width(), self.design.height());
+        let mut camera = FunctionalCamera::new(self.design);
+        is_square || camera.step(frame).is_ok_and(|outcome| outcome.srs.contains(&true))
     }
 
     /// Returns the part of a frame that is taken: all of it, unless the next reset must find the

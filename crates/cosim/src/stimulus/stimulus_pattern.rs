@@ -96,7 +96,7 @@ pub(super) const VARYING_PATTERNS: &[StimulusPattern] = &[
     StimulusPattern::Ring,
 ];
 
-/// The number of squares that are tried to meet a minimum.
+/// The number of squares that are tried to meet a minimum, or to be relevant.
 const MAX_TRIALS: usize = 64;
 
 /// The drawing state of one region.
@@ -256,6 +256,16 @@ impl PatternGenerator {
             now.scores.get(score_index).copied().unwrap_or_else(changes).abs_diff(wanted)
         };
         self.pixels = trials.into_iter().min_by_key(distance).expect("there is a first trial");
+    }
+
+    /// Draws noise until its region is relevant with the thresholds of the design, and returns true.
+    /// After many trials it returns false. The pixels of neighbors are not known, so those of the
+    /// border are repeated.
+    pub(crate) fn draw_relevant_noise(&mut self) -> bool {
+        (0..MAX_TRIALS).any(|_| {
+            self.draw(StimulusPattern::Noise);
+            self.scorer.score(&self.pixels, None, &self.configured).is_relevant
+        })
     }
 
     /// Scores a square without a reference, and decides with these thresholds if its region is

@@ -21,9 +21,8 @@ pub(crate) enum ThresholdAim {
     Largest,
     /// Levels of 0 and minima of 1: a region that is not flat is relevant, and any change counts.
     Smallest,
-    /// The thresholds of `Smallest` if they are ports, or else those of the design. Neither
-    /// thresholds nor data are aimed at each other, so a flat region is irrelevant, and any other
-    /// one is relevant.
+    /// The thresholds of `Smallest` if they are ports, or else those of the design, for which noise
+    /// is drawn until it is relevant. A flat region is irrelevant, and noise is relevant.
     Independent,
     /// The levels of the design, with minima that in turn no score and every score meets, and a
     /// minimum of changed pixels that is never met. A region is irrelevant, is held, and is

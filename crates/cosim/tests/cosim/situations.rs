@@ -130,6 +130,38 @@ fn vectors_of_a_single_region_reach_every_situation() {
     assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
 }
 
+/// Designs whose constant thresholds few pictures meet: noise with corners behind a median filter in
+/// regions of 4x4 pixels, and means of one bit.
+const SELDOM_RELEVANT: &[&[&str]] = &[
+    &[
+        "frame={width=12,height=4,pixel_bits=4}",
+        "region={size=4,neighborhood='shared'}",
+        "spatial=[{feature='variance'},{feature='corner'}]",
+        "decision.combine='all'",
+        "hardware={organization='serial',fold=3,thresholds='constant'}",
+    ],
+    &[
+        "frame={width=30,height=20,pixel_bits=1}",
+        "region={size=16,neighborhood='shared'}",
+        MEAN,
+        "hardware={organization='serial',fold=3,thresholds='constant'}",
+    ],
+];
+
+#[test]
+fn vectors_that_are_seldom_relevant_reach_every_situation() {
+    let all: Vec<(&[&str], u64)> =
+        SELDOM_RELEVANT.iter().flat_map(|&keys| (1..=6).map(move |seed| (keys, seed))).collect();
+    let failures = in_parallel(&all, |&(keys, seed)| {
+        let found = reached_situations(&design(keys), seed);
+        match found.missing().is_empty() && !found.0.is_empty() {
+            true => Ok(()),
+            false => Err(format!("{keys:?}, seed {seed}: {found}")),
+        }
+    });
+    assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
+}
+
 /// Keys with their values, for designs drawn at random. A value that is empty leaves a key at its
 /// default.
 const CHOICES: &[&[&str]] = &[

@@ -80,15 +80,15 @@ impl FrameSequence {
     }
 }
 
-/// Returns sequences in which every region shows a summary, the same one behind a reset, pixels,
-/// and that summary again.
+/// Returns sequences in which every region shows a summary, another one, the same one behind a
+/// reset, pixels, and that summary again.
 const fn mean_sequences_around_reset() -> [FrameSequence; 2] {
-    use StimulusPattern::{Noise, Same, Zero};
+    use StimulusPattern::{Max, Noise, Same, Zero};
     let aimed = FrameSequence::with_aim;
     [
         FrameSequence {
             is_mixed: false,
-            ..aimed(ThresholdAim::Independent, "means before a reset", &[Noise, Zero, Zero])
+            ..aimed(ThresholdAim::Independent, "means before a reset", &[Noise, Max, Zero, Zero])
         },
         FrameSequence {
             is_mixed: false,
