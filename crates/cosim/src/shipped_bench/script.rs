@@ -91,7 +91,7 @@ impl BenchScript {
         let writer = ScriptWriter::new(part, &mut random);
         // A reset must follow frames that are leaving or lost, so their sequences come first.
         let mut sequences = vec![writer.leaving_sequence(is_wide), writer.high_minimum_sequence()];
-        sequences.extend(writer.lossy_sequence());
+        sequences.extend(writer.lossy_sequence(is_wide));
         sequences.push(writer.usual_sequence());
         if let Some(periphery) = part.periphery() {
             let level = periphery.level;
@@ -284,14 +284,14 @@ impl<'a> ScriptWriter<'a> {
 
     /// Returns the sequence in which the sink stalls until regions are lost, and summaries are lost
     /// and sent again; `None` without a sink.
-    fn lossy_sequence(&self) -> Option<BenchSequence> {
+    fn lossy_sequence(&self, is_wide: bool) -> Option<BenchSequence> {
         let stalled = stalled_frames(self.part);
         if stalled == 0 {
             return None;
         }
         // More regions must be lost than have their own structure, because the counters must reach
-        // large values.
-        let frame = |number: usize| match self.places.has_ground() {
+        // large values. Where neighbors decide, few pictures of single regions are relevant.
+        let frame = |number: usize| match is_wide || self.places.has_ground() {
             true => self.wide_frame(u32::try_from(number).unwrap_or_default()),
             false => self.alternating_frame(number),
         };

@@ -157,6 +157,21 @@ fn every_design_shows_active_held_and_blank_regions() {
     assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
 }
 
+/// The relevance of regions of 2x2 pixels depends on their neighbors. Regions of more than one frame
+/// are lost, or the number of the frame would be 0 in all vectors.
+#[test]
+fn regions_that_depend_on_their_neighbors_are_lost_in_several_frames() {
+    let toml = "frame = { width = 64, height = 6, pixel_bits = 1 }\n\
+        region = { size = 2, neighborhood = 'shared' }\n\
+        temporal = { level = 0, min_count = 2 }\n\
+        spatial = [{ feature = 'edge', level = 0, min_score = 1 },\n\
+        { feature = 'segment', level = 0, min_score = 1, mean_fraction_bits = 1 }]\n\
+        hardware = { organization = 'raster', pixels_per_clock = 2 }\n";
+    let bench = bench(&design(toml), Top::Rcm);
+    assert_eq!(bench.shortcoming, None);
+    assert!(bench.tally.lost > 0, "{:?}", bench.tally);
+}
+
 /// Returns the problem of a bench that does not show every kind of region.
 fn bench_problem(design: &Design, top: Top) -> Option<String> {
     let bench = bench(design, top);
