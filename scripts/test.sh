@@ -10,10 +10,9 @@ cd "$(dirname "$0")/.."
 packages=$(mktemp)
 log=$(mktemp)
 beside=$(mktemp)
-pages=$(mktemp)
 spent=$(mktemp)
 FOVEATE_OBJECTS=$(mktemp -d)
-trap 'rm -rf "$packages" "$log" "$beside" "$pages" "$spent" "$FOVEATE_OBJECTS"' EXIT
+trap 'rm -rf "$packages" "$log" "$beside" "$spent" "$FOVEATE_OBJECTS"' EXIT
 # Each step prints the time of the steps before it: wall clock, then processor time in user and system mode.
 step() {
     times >"$spent"
@@ -45,26 +44,25 @@ step "build of the tests"
 cargo test --workspace --locked --quiet --no-run
 FOVEATE=$(realpath "${CARGO_TARGET_DIR:-target}/debug/foveate")
 export FOVEATE
-step "book and Python package, beside the live page in a browser"
-# The browser waits for pictures and timers most of the time, so its tests run beside this step and the next.
-scripts/web.sh --test >"$pages" 2>&1 &
+step "live page in a browser; book and Python package"
+# A browser waits for pictures and timers half of the time, in which the package is built.
+scripts/web.sh --test >"$beside" 2>&1 &
 browser=$!
 scripts/book.sh
 wait "$installed" || { cat "$packages" && exit 1; }
 FOVEATE_PACKAGE=$(env --unset=FOVEATE_PACKAGE scripts/python.sh)
 scripts/checks/shared_build.py "${CARGO_TARGET_DIR:-target}/wheels/build.log"
 export FOVEATE_PACKAGE
+wait "$browser" || { cat "$beside" && exit 1; }
+cat "$beside"
 step "tests of the Python package; documents, workflow on this machine, mutated files for every reader, ONNX's tests of operators"
 # Two jobs run in parallel, each on one of two processors.
 python=$(scripts/python_tools.sh --package)/python
 (JOBS=1 scripts/snippets.sh && scripts/workflow.sh && JOBS=1 scripts/checks/fuzz.py --quick &&
     "$python" scripts/checks/onnx_schemas.py && "$python" scripts/checks/onnx_nodes.py) >"$beside" 2>&1 &
-documents=$!
 scripts/python.sh --test
-wait "$documents" || { cat "$beside" && exit 1; }
+wait $! || { cat "$beside" && exit 1; }
 cat "$beside"
-wait "$browser" || { cat "$pages" && exit 1; }
-cat "$pages"
 step "samples of proofs, lint matrix, growth of area and mutants (scripts/formal.sh, lint.sh, area_growth.py and mutation.sh are the whole)"
 # Two jobs run in parallel, each on one of two processors.
 (JOBS=1 scripts/formal.sh --quick && JOBS=1 scripts/lint.sh --quick && JOBS=1 scripts/checks/area_growth.py --quick) >"$beside" 2>&1 &

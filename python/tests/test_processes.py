@@ -166,6 +166,11 @@ def test_ctrl_c_ends_long_work_at_once(what, tmp_path):
         [sys.executable, "-c", code, str(tmp_path / "out")], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
     )
     assert process.stdout.readline() == "go\n"
+    start_time = time.monotonic()
+    # The command tells of its results only if there are some.
+    while what == "command" and not any(tmp_path.rglob("000001.png")):
+        assert process.poll() is None and time.monotonic() - start_time < 60
+        time.sleep(0.01)
     time.sleep(0.5)
     process.send_signal(signal.SIGINT)
     interrupt_time = time.monotonic()
