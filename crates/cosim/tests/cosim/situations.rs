@@ -87,12 +87,9 @@ fn recorded_situations(design: &Design, level: CosimLevel, seed: u64) -> Occurre
     stimulus.record(design, &mut |_, _| {}).unwrap().situations().clone()
 }
 
-#[test]
-fn vectors_reach_every_situation_that_a_design_can_have() {
-    let seeds = [1, 2, 1_000_003];
-    let all: Vec<(&[&str], u64)> =
-        DESIGNS.iter().flat_map(|&keys| seeds.map(|seed| (keys, seed))).collect();
-    let failures = in_parallel(&all, |&(keys, seed)| {
+/// Checks that the vectors of each design, with each seed, reach every situation.
+fn assert_every_situation_is_reached(runs: &[(&[&str], u64)]) {
+    let failures = in_parallel(runs, |&(keys, seed)| {
         let found = reached_situations(&design(keys), seed);
         match found.missing().is_empty() && !found.0.is_empty() {
             true => Ok(()),
@@ -100,6 +97,14 @@ fn vectors_reach_every_situation_that_a_design_can_have() {
         }
     });
     assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
+}
+
+#[test]
+fn vectors_reach_every_situation_that_a_design_can_have() {
+    let seeds = [1, 2, 1_000_003];
+    let all: Vec<(&[&str], u64)> =
+        DESIGNS.iter().flat_map(|&keys| seeds.map(|seed| (keys, seed))).collect();
+    assert_every_situation_is_reached(&all);
 }
 
 /// Frames of one region, whose situations no neighbor brings about.
@@ -152,14 +157,7 @@ const SELDOM_RELEVANT: &[&[&str]] = &[
 fn vectors_that_are_seldom_relevant_reach_every_situation() {
     let all: Vec<(&[&str], u64)> =
         SELDOM_RELEVANT.iter().flat_map(|&keys| (1..=6).map(move |seed| (keys, seed))).collect();
-    let failures = in_parallel(&all, |&(keys, seed)| {
-        let found = reached_situations(&design(keys), seed);
-        match found.missing().is_empty() && !found.0.is_empty() {
-            true => Ok(()),
-            false => Err(format!("{keys:?}, seed {seed}: {found}")),
-        }
-    });
-    assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
+    assert_every_situation_is_reached(&all);
 }
 
 /// Keys with their values, for designs drawn at random. A value that is empty leaves a key at its
