@@ -70,7 +70,8 @@ module raster_classes #(
         .pending_o(pending_o), .occupied_i(in_frame), .region_i(region), .class_o(next_class)
     );
 
-    // The windows take the word behind the center as their newest, so the class of the next word is the right one for it.
+    // While a word is the center of the windows, the word after it is their newest one, and next_class, delayed by CORNER_CLOCKS, is the
+    // class of that word.
     word_delay #(.WIDTH(2), .DEPTH(CORNER_CLOCKS)) u_corner (
         .clk_i(clk_i), .data_i(next_class), .data_o(corner_class_o)
     );

@@ -88,7 +88,7 @@ module raster_pass #(
     );
     assign read_o = reading_q;
 
-    // The word that was read, and its two steps: a value of the word, and that of the region so far.
+    // The flags of the word that was read, for its two steps: first the values of the word are made, then they are added to the region.
     wire word_valid, word_first, word_last;
     bit_delay #(.DEPTH(READ_CLOCKS)) u_word_valid (
         .clk_i(clk_i), .rst_i(rst_i), .bit_i(reading_q), .bit_o(word_valid)

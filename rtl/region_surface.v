@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Computes the smallest of four sums over a frame, of the distances of each pixel from its right, its lower, its lower right and
-// its lower left neighbor. score_o holds it after the second edge behind the last step; with DEEP, which puts a register between
-// difference and sum, after the third.
+// its lower left neighbor. score_o holds it two clocks after the last step; with DEEP, which puts a register between difference and
+// sum, three clocks after it.
 `default_nettype none
 
 module region_surface #(

@@ -41,7 +41,7 @@ module segment_score #(
         if (DEEP != 0 && DEEP != 1) begin : g_deep_range DEEP_must_be_0_or_1 u_refused (); end
     endgenerate
 
-    // The surplus of a frame is PIXELS at most. It is read up to the last pixel only, and is then smaller.
+    // The surplus is last used with the last pixel of a frame. Then it counts the pixels before that one, so it is below PIXELS.
     localparam SURPLUS_BITS = $clog2(PIXELS) + 1;
 
     wire [MEAN_BITS-1:0] scaled = {{(MEAN_BITS - WIDTH) {1'b0}}, pixel_i} << FRACTION;

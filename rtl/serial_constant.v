@@ -140,7 +140,7 @@ module serial_constant #(
     assign spent_o = scale_q == 0;
     wire flow_ends;  // `flow`: the shifted number is at its last place
     wire [SCALE_BITS-1:0] flow_start;  // `flow`: the shifted number that comes next
-    wire flow_starts;  // `flow`: it comes now
+    wire flow_starts;                  // `flow`: flow_start becomes the shifted number at this edge
 
     generate
         if (FLOW) begin : g_flow

@@ -82,7 +82,7 @@ module serial_controls #(
     wire clear = idle || tests || (writing && (!temporal || blends)) || clearing || keeping
         || probed || (choosing && !part_i[0]);                 // clear the accumulator
     wire probe = probing && part_i[0];                         // note if a neighbor is above, and another one below
-    wire choose = choosing;                                    // clear or take the sum only if so
+    wire choose = choosing;                                    // clear, or take the sum, only where probing found a neighbor above and one below
 
     // Controls for the counts.
     wire run = compares || half_done || ring_test || (probing && !part_i[0]);  // count in unary
@@ -93,13 +93,13 @@ module serial_controls #(
     wire count_side = counting;                                // this hit is one of `segment`
 
     // Controls for `aux` and for the bounds.
-    wire recall_sum = retrieving;                              // the next bit is the highest of a sum in `aux`, and not the sign; with least: of that
+    wire recall_sum = retrieving;                              // the next bit is the highest of a sum in `aux`, and not the sign; with least: the highest of the smallest product
     wire recall_mean = recalling;                              // the next bit is the highest of a mean in `aux`, and not the sign
-    wire ceiling = leveling || rounding;                       // add one only if the mean has a fraction; with clear: find out
+    wire ceiling = leveling || rounding;                       // add one only if the mean has a fraction; with clear: note whether it has one
     wire shrink = shrinking;                                   // clear the accumulator unless it is negative
 
     // Controls for `flow`.
-    wire least = lessening;                                    // the smallest product so far takes the next bit in place of `aux`: the bit of the smaller one
+    wire least = lessening;                                    // the register of the smallest product turns in place of `aux`, and takes the bit of the smaller product
     wire note = noting;                                        // the displacement becomes the operand if it was the best so far
 
     // Other controls.

@@ -81,7 +81,7 @@ module serial_states #(
     localparam [5:0] SUM = 6'd12;
     localparam [5:0] DOUBLE = 6'd13;
     localparam [5:0] HALF = 6'd14;     // adds half of the divisor
-    localparam [5:0] DIVIDE = 6'd15;   // finds a bit of a quotient; a division by 1 moves the accumulator to `aux`; `flow` may subtract its smallest product
+    localparam [5:0] DIVIDE = 6'd15;   // finds a bit of a quotient; a division by 1 moves the accumulator to `aux`, or compares a product of `flow` with the smallest
     localparam [5:0] CLEAR = 6'd16;    // ends a sum or a comparison: `surface` and `flow` keep the smaller value, `segment` keeps the mean
     localparam [5:0] DEVIATE = 6'd17;
     localparam [5:0] SQUARE = 6'd18;   // adds words whose bit is set
@@ -95,7 +95,7 @@ module serial_states #(
     localparam [5:0] STORE = 6'd26;    // writes a mean that has come back
     localparam [5:0] SHOW = 6'd27;     // a mean leaves
     localparam [5:0] RANGE_STEP = 6'd28;  // keeps the larger of the accumulator and a word, or its distance from the largest
-    localparam [5:0] RECALL = 6'd29;   // adds the mean or a sum, or subtracts it, bit by bit; `flow` multiplies its sum by a weight
+    localparam [5:0] RECALL = 6'd29;   // adds the mean or a sum, or subtracts it, bit by bit; `flow` multiplies its sum by a weight, and subtracts its smallest product
     localparam [5:0] WALK = 6'd30;     // `segment`: counts a word; `surface` and `flow`: adds the distance of a word from another
     localparam [5:0] FILTER_STEP = 6'd31;  // a step of `switching3x3` or `binomial3x3`
     localparam [5:0] PASS = 6'd32;     // the classes of the regions of the slot pass
@@ -160,7 +160,8 @@ module serial_states #(
     wire denoising = FILTER != 0 && job_q == TEMPORAL && !loading;
     wire border_ends = bordering && writing && last_column_i && part_q == 2'd3;
 
-    // Steps of `segment`. After round 0 there is a mean; then the words above are counted, those not below, and the smaller side.
+    // Steps of `segment`. Round 0 makes the mean. Round 1 counts the words above it, and round 2 adds those that are not below it: the
+    // count then says which side is smaller. Round 3 counts that side alone.
     wire [1:0] round;
     wire recalling = SEGMENT && state_q == RECALL && segments_i;  // adds the mean
     wire leveling = SEGMENT && state_q == HALF && segments_i && round != 2'd0;  // makes a bound of the mean and the level

@@ -46,7 +46,7 @@ def events(outcomes: Iterable[Outcome], *, only_active: bool = False, kind: str 
     outcomes : iterable of Outcome
         Outcomes of ``Camera.step`` or ``simulate``, all of one design. A generator is read to its end.
     only_active : bool, default False
-        Keep only the rows of active regions, whose pixels the camera sends.
+        Keep only the rows of regions that send something: the pixels of an active region, or a summary.
     kind : {"numpy", "pandas", "pyarrow"}
         A structured array, a data frame, or a table of Arrow. Pandas and PyArrow must be installed.
 

@@ -12,7 +12,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use crate::camera_state::{CameraState, NO_SIZE, SizedEngine, lock_camera};
+use crate::camera_state::{CameraState, NO_SIZE, PickledMap, SizedEngine, lock_camera};
 use crate::clock::{MicroSeconds, StepClock};
 use crate::config;
 use crate::design::{Design, in_words};
@@ -47,8 +47,9 @@ use crate::tools;
 ///     Number of frames since the camera was made or reset.
 /// zones : array of shape (rows, columns), uint8, or None
 ///     The class of each region from the next frame on: 0 normal, 1 off, 2 keen, 3 always; None if the design has no
-///     zones (`zones={}` gives it zones). Assign an array of this shape to change it. A reset keeps it; a first frame of
-///     another size starts with the areas of the configuration.
+///     zones (`zones={}` gives it zones). Assign an array of this shape to change it; an assignment to a part of the array
+///     changes nothing. A reset and a copy keep it; a first frame of another size starts with the classes of the configuration.
+///     Before the first frame of a camera whose configuration has no size, it raises a ValueError.
 ///
 /// Notes
 /// -----
@@ -75,7 +76,7 @@ pub(crate) struct Camera {
     state: Mutex<CameraState>,
 }
 
-/// Returns the number of threads of a step; 0 means one per processor.
+/// The number of threads of a step; 0 means one per processor.
 #[derive(Clone, Copy)]
 struct Threads(usize);
 
@@ -290,7 +291,8 @@ impl Camera {
     ///     arrays (height, width); a copy of them is kept until the end.
     /// rendered : bool, default True
     ///     Keep the frames on the receiver's screen, which need most of the memory: as many bytes as the clip has pixels (twice
-    ///     as many above 8 bits). Everything else needs 12 bytes per region and frame, and 8 more for each feature.
+    ///     as many above 8 bits). Everything else needs 12 bytes per region and frame, 8 more for each feature, and 2 more
+    ///     for the displacements of `flow`.
     /// progress : bool, optional
     ///     Show a line of progress on standard error. The default shows it on a terminal and in a notebook.
     /// max_frames, input_fps, rate, start, end, crop, resize, luma, orientation, raw, bayer, timestamps, timestamp_unit, images, labels : optional
@@ -389,20 +391,26 @@ impl Camera {
         slf: &Bound<'py, Self>,
     ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
         let camera = slf.get();
-        let frames = camera.frames()?;
+        let (frames, map) = {
+            let state = camera.lock_state()?;
+            (state.frames, state.pickled_map())
+        };
         if frames > 0 {
             return Err(PyTypeError::new_err(format!(
                 "this camera has seen {frames} frames, which a copy would not have; copy camera.design, or reset the \
                  camera first"
             )));
         }
-        let arguments = (camera.config.to_toml(), camera.threads).into_pyobject(slf.py())?;
+        let arguments = (camera.config.to_toml(), camera.threads, map).into_pyobject(slf.py())?;
         Ok((slf.get_type().getattr("_from_toml")?, arguments))
     }
 
     #[staticmethod]
-    fn _from_toml(text: &str, threads: Threads) -> PyResult<Self> {
+    #[pyo3(signature = (text, threads, map=None))]
+    fn _from_toml(text: &str, threads: Threads, map: Option<PickledMap>) -> PyResult<Self> {
         let config = DesignConfig::from_toml(text).map_err(raise)?;
-        Ok(Self::of(config, threads.0))
+        let Some(map) = map else { return Ok(Self::of(config, threads.0)) };
+        let state = CameraState::with_map(&config, threads.0, map)?;
+        Ok(Self { state: Mutex::new(state), ..Self::of(config, threads.0) })
     }
 }

@@ -43,11 +43,27 @@ impl SizedEngine {
         Ok(())
     }
 
+    /// Returns the map of classes that was set last, if one was set.
+    fn set_map(&self) -> Option<RegionClasses> {
+        self.classes().filter(|classes| classes.maps_set > 0)
+    }
+
+    /// Continues with the map of classes of another engine for frames of the same size.
+    fn continue_map(&mut self, classes: &RegionClasses) -> PyResult<()> {
+        self.engine.set_classes(&classes.map).map_err(raise)?;
+        self.maps_set = classes.maps_set;
+        Ok(())
+    }
+
     /// Copies the values that the regions of the last frame send.
     pub(crate) fn sent_values(&self) -> SentValues {
         SentValues::of_engine(&self.engine)
     }
 }
+
+/// A map of classes in a pickled camera: the width and height of frames, the code of each region,
+/// and the number of maps that were set.
+pub(crate) type PickledMap = ((usize, usize), Vec<u8>, u64);
 
 /// The message of a camera that has no size yet.
 pub(crate) const NO_SIZE: &str = "this camera has no size yet: it takes that of its first frame, so show it one, or give the size, \
@@ -132,10 +148,40 @@ impl CameraState {
             }
             check_size(size, own_size.expect("it has seen a frame"))?;
         } else if own_size != Some(size) || self.process != std::process::id() {
-            self.sized_engine = Some(SizedEngine::new(design_of_size(config, size)?, threads)?);
+            // Threads do not exist after a fork, but the map of classes goes on.
+            let old = self.sized_engine.as_ref().filter(|_| own_size == Some(size));
+            let set_map = old.and_then(SizedEngine::set_map);
+            let mut sized_engine = SizedEngine::new(design_of_size(config, size)?, threads)?;
+            if let Some(map) = set_map {
+                sized_engine.continue_map(&map)?;
+            }
+            self.sized_engine = Some(sized_engine);
             self.process = std::process::id();
         }
         Ok(())
+    }
+
+    /// Returns the map of classes that was set last, for a copy of the camera.
+    pub(crate) fn pickled_map(&self) -> Option<PickledMap> {
+        let sized_engine = self.sized_engine.as_ref()?;
+        let RegionClasses { map, maps_set } = sized_engine.set_map()?;
+        let size = (sized_engine.design.width() as usize, sized_engine.design.height() as usize);
+        Some((size, map.into_iter().map(RegionClass::code).collect(), maps_set))
+    }
+
+    /// Makes the state of a camera that has seen no frame, and whose map of classes is that of
+    /// another camera.
+    pub(crate) fn with_map(
+        config: &DesignConfig,
+        threads: usize,
+        (size, codes, maps_set): PickledMap,
+    ) -> PyResult<Self> {
+        let classes: Option<Vec<RegionClass>> =
+            codes.into_iter().map(RegionClass::from_code).collect();
+        let map = classes.ok_or_else(|| PyValueError::new_err("a code of zones is 0 to 3"))?;
+        let mut sized_engine = SizedEngine::new(design_of_size(config, size)?, threads)?;
+        sized_engine.continue_map(&RegionClasses { map, maps_set })?;
+        Ok(Self { sized_engine: Some(sized_engine), ..Self::new() })
     }
 
     /// Takes a frame of the size and depth of the engine.

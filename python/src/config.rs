@@ -36,7 +36,9 @@ fn map_folder(
     source: Option<&Bound<'_, PyAny>>,
     sections: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<PathBuf> {
-    let is_overridden = sections.map_or(Ok(false), |sections| sections.contains("zones"))?;
+    let zones = sections.map_or(Ok(None), |sections| sections.get_item("zones"))?;
+    let keys = zones.as_ref().and_then(|zones| zones.cast::<PyDict>().ok());
+    let is_overridden = keys.map_or(Ok(false), |keys| keys.contains("map"))?;
     let file: Option<PathBuf> = source.and_then(|source| source.extract().ok());
     let folder = file.filter(|_| !is_overridden).and_then(|file| file.parent().map(Path::to_owned));
     Ok(folder.unwrap_or_default())

@@ -380,3 +380,36 @@ def test_zones_of_a_configuration_are_those_of_its_areas():
     assert camera.zones.tolist() == [[1, 1, 1, 1], [0, 0, 2, 2], [0, 0, 2, 2]]
     assert fv.Camera(camera.design).zones.tolist() == camera.zones.tolist()
     assert pickle.loads(pickle.dumps(camera)).zones.tolist() == camera.zones.tolist()
+
+
+@pytest.mark.parametrize("size", [{"frame": {"width": 32, "height": 24}}, {}])
+def test_a_copy_has_the_zones_that_were_set(size):
+    frame = np.random.default_rng(4).integers(0, 256, (24, 32), "uint8")
+    camera = fv.Camera(**size, zones={})
+    camera.step(frame)
+    camera.reset()
+    camera.zones = np.arange(12).reshape(3, 4) % 4
+    camera.zones = camera.zones[:, ::-1]
+    for made in (copy.copy(camera), copy.deepcopy(camera), pickle.loads(pickle.dumps(camera))):
+        assert (made.zones == camera.zones).all() and made.design == camera.design
+        outcome = made.step(frame, keep=True)
+        camera.reset()
+        # The packets carry the version of the map.
+        assert outcome.packets() == camera.step(frame, keep=True).packets()
+        made.reset()
+        camera.reset()
+        assert (made.zones == camera.zones).all()
+
+
+def test_a_map_stays_in_the_folder_of_its_file_beside_other_keys(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "designs").mkdir()
+    pixels = bytes([1, 0, 0, 2])
+    (tmp_path / "designs" / "map.pgm").write_bytes(b"P5 2 2 255\n" + pixels)
+    (tmp_path / "map.pgm").write_bytes(b"P5 2 2 255\n" + bytes([3] * 4))
+    (tmp_path / "designs" / "camera.toml").write_text("frame = { width = 16, height = 16 }\nzones = { map = \"map.pgm\" }\n")
+    for zones in ({"keen": {"temporal": {"level": 2}}}, {}, None):
+        assert fv.Camera("designs/camera.toml", zones=zones).zones.ravel().tolist() == list(pixels)
+    assert (fv.Camera("designs/camera.toml", zones={"map": "map.pgm"}).zones == 3).all()
+    with pytest.raises(ValueError, match="zones.map.*zones.classes.*leave one"):
+        fv.Camera("designs/camera.toml", zones={"classes": ["00", "00"]})

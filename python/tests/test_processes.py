@@ -120,6 +120,14 @@ if child == 0:
         os._exit(7)
     os._exit(1)
 assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 7
+
+zoned = [fv.Camera(frame={"width": 80, "height": 80}, threads=threads, zones={}) for threads in (1, 2)]
+for camera in zoned:
+    camera.zones = np.full((10, 10), 3)
+child = os.fork()
+if child == 0:
+    os._exit(0 if all(camera.step(frame).srs.all() and camera.zones.all() for camera in zoned) else 1)
+assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
 """
 
 

@@ -5,7 +5,7 @@
 //   scores   {= summary =}
 //   latency  {= latency =}
 //
-// Outputs change after the rising edge of clk_i. Only srs_o, trs_o and active_o also depend on the threshold inputs at
+// Outputs change after the rising edge of clk_i. Only srs_o, trs_o{% if periphery.is_some() %}, active_o and summary_o{% else %} and active_o{% endif %} also depend on the threshold inputs at
 // once. A threshold is read when it is used, so keep thresholds still while a frame is under way.
 `default_nettype none
 

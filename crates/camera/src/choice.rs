@@ -83,9 +83,11 @@ choice! {
         Variance = "variance",
         /// The largest minus the smallest pixel of the region.
         Range = "range",
-        /// The smallest sum of differences of the region from itself, moved by one pixel.
+        /// The smallest of four sums: the differences of the region from a copy of itself that is
+        /// moved by one pixel in one of four directions.
         Surface = "surface",
-        /// The smaller number of pixels that lie more than a level above, or below, the mean.
+        /// The smaller of two counts: of the pixels that are above the mean by more than a level,
+        /// and of those that are below it by more than the level.
         Segment = "segment",
         /// The gain of the best displacement of the region from its reference.
         Flow = "flow",

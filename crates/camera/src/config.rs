@@ -134,8 +134,11 @@ pub struct DenoiseConfig {
 pub struct SpatialConfig {
     /// The kind of the feature.
     pub feature: FeatureKind,
-    /// Per-pixel threshold of `edge` (default 100), `corner` (default 20) and `segment` (default 8),
-    /// in grey levels. The defaults are those of 8 bits, and are scaled to the depth.
+    /// Per-pixel threshold of `edge` (default 100), `corner` (default 20) and `segment`
+    /// (default 8), in grey levels. The defaults are those of 8 bits, and are scaled to the depth.
+    /// Valid are 0..=6*(2^P-1)-1 for `edge`, 0..=2^P-2 for `corner`, and for `segment`
+    /// 0..=2^(P-1)-1 with fraction bits of the mean and 0..=2^(P-1)-2 without. With a `min_score`
+    /// of 0 a level may be up to 6*(2^P-1) for `edge`, and up to 2^P-1 for the other two.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub level: Option<u32>,
     /// Per-region threshold: pixels for `edge`, `corner` (default 5) and `segment` (default 8), grey
@@ -208,8 +211,9 @@ pub struct DecisionConfig {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct TemporalConfig {
-    /// A pixel has changed when it differs by more than this many grey levels, 0..2^P-1. If the key
-    /// is left out, it is 8 at 8 bits, scaled to the depth.
+    /// A pixel has changed when it differs by more than this many grey levels, 0..=2^P-2, or
+    /// 0..=2^P-1 if `min_count` is 0. If the key is left out, it is 8 at 8 bits, scaled to the
+    /// depth.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub level: Option<u32>,
     /// TRS is 1 when at least this many pixels have changed, 0..=n.
@@ -252,7 +256,7 @@ pub struct PeripheryConfig {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub blocks: Option<u32>,
     /// A summary is sent again when a mean differs from the mean that was sent last by more than
-    /// this many grey levels, 0..2^P-1. If the key is left out, it is 4 at 8 bits, scaled to the
+    /// this many grey levels, 0..=2^P-2. If the key is left out, it is 4 at 8 bits, scaled to the
     /// depth.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub level: Option<u32>,

@@ -63,7 +63,7 @@ impl Camera {
     #[must_use]
     pub fn displacement_bits(&self) -> u32 {
         let radius = self.displacement_feature().and_then(SpatialFeature::radius);
-        radius.map_or(0, |radius| 2 * Displacement::number_bits(radius))
+        radius.map_or(0, |radius| 2 * Displacement::coordinate_bits(radius))
     }
 
     /// Returns true if a feature uses a 3x3 window.

@@ -15,8 +15,11 @@ pub struct Displacement {
 }
 
 impl Displacement {
-    /// Returns all displacements of at most `radius` pixels in both directions. Each of them is
-    /// preferred to the later ones if their mean errors are equal.
+    /// Returns all (2 `radius` + 1)^2 displacements with |dx| and |dy| of at most `radius` pixels,
+    /// 0 first. Each of them is preferred to the later ones if their mean errors are equal.
+    ///
+    /// # Panics
+    /// Panics if the radius is above 127. The radius of a camera is 1..=3.
     #[must_use]
     pub fn search_order(radius: u32) -> Vec<Self> {
         let radius = i8::try_from(radius).expect("a radius is at most 3");
@@ -28,13 +31,13 @@ impl Displacement {
 
     /// Returns the larger one of |dx| and |dy|, which is at most the radius of the search.
     #[must_use]
-    pub fn largest_number(self) -> u32 {
+    pub fn largest_coordinate(self) -> u32 {
         self.dx.unsigned_abs().max(self.dy.unsigned_abs()).into()
     }
 
-    /// Returns the bits of dx or dy in two's complement, for a search of this radius.
+    /// Returns the bits of dx or dy in two's complement, for a search of this radius, 1..=3.
     #[must_use]
-    pub fn number_bits(radius: u32) -> u32 {
+    pub fn coordinate_bits(radius: u32) -> u32 {
         bits_for(2 * u64::from(radius))
     }
 
@@ -68,10 +71,11 @@ mod tests {
     #[test]
     fn two_or_three_bits_hold_the_numbers_of_a_search() {
         for radius in 1..=3 {
-            let largest =
-                Displacement::search_order(radius).into_iter().map(Displacement::largest_number);
+            let largest = Displacement::search_order(radius)
+                .into_iter()
+                .map(Displacement::largest_coordinate);
             assert_eq!(largest.max(), Some(radius));
-            let bits = Displacement::number_bits(radius);
+            let bits = Displacement::coordinate_bits(radius);
             assert!(radius < 1 << (bits - 1) && radius >= 1 << (bits - 2), "{radius}: {bits}");
         }
     }

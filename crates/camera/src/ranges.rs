@@ -32,7 +32,7 @@ pub(crate) fn largest_flow_radius(side: u32) -> u32 {
     (*FLOW_RADII.end()).min(side - 1)
 }
 
-/// Refuses the `value` of a `key` that is not in `range`. The message has `why` behind the range.
+/// Refuses the `value` of a `key` that is not in `range`. The message has `why` after the range.
 ///
 /// # Errors
 /// Returns [`ConfigError::Range`] if the value is outside the range.

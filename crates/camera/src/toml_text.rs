@@ -223,14 +223,19 @@ fn override_target<'a>(table: &'a mut Table, steps: &[&str]) -> Result<&'a mut V
         ("spatial", false) => default_features(),
         _ => Value::Table(Table::new()),
     });
-    for step in rest {
+    for (depth, step) in rest.iter().enumerate() {
         here = match here {
             Value::Table(inner) => inner.entry(*step).or_insert_with(|| Value::Table(Table::new())),
             Value::Array(items) => {
                 let count = items.len();
-                step.parse::<usize>().ok().and_then(|index| items.get_mut(index)).ok_or_else(
-                    || format!("`{step}` is not an index into `{first}`, which has {count} entries, numbered from 0"),
-                )?
+                let index = step.parse::<usize>().ok();
+                index.and_then(|index| items.get_mut(index)).ok_or_else(|| {
+                    let array = steps[..=depth].join(".");
+                    format!(
+                        "`{step}` is not an index into `{array}`, which has {count} entries, \
+                         numbered from 0"
+                    )
+                })?
             }
             _ => return Err(format!("`{step}` is inside a value that is not a table")),
         };

@@ -25,8 +25,8 @@ pub struct Zones {
 }
 
 impl Zones {
-    /// Returns the table with the classes of the regions in place of classes of pixels and areas. A
-    /// table with areas only keeps them, because they are easier to read.
+    /// Returns the table with one class per region in place of classes of pixels and of areas. A
+    /// table that has areas and no classes is returned as it is, because areas are easier to read.
     pub(crate) fn completed_table(&self, zones: &ZonesConfig, columns: u32) -> ZonesConfig {
         if zones.classes.is_empty() {
             return zones.clone();

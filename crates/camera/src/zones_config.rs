@@ -18,12 +18,13 @@ pub struct ZonesConfig {
     /// each pixel of the frame.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub classes: Vec<String>,
-    /// The areas whose regions have a class, in pixels of the frame. They overrule `classes`. All
-    /// other regions are normal.
+    /// The areas whose pixels have a class of their own, in pixels of the frame. They overrule
+    /// `classes`. All other pixels have the class of `classes`, or are normal without it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub areas: Vec<AreaConfig>,
-    /// The level of the summaries of `off` regions in grey levels, 0..2^P-1, in place of
-    /// `periphery.level`. It is valid only with `render.irrelevant = "mean"`.
+    /// The level of the summaries of `off` regions in grey levels, 0..=2^P-1, in place of
+    /// `periphery.level`, which it is if it is left out. It is valid only with
+    /// `render.irrelevant = "mean"`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub off_level: Option<u32>,
     /// The thresholds of `keen` regions.
@@ -38,11 +39,13 @@ pub struct ZonesConfig {
 pub struct AreaConfig {
     /// The class of the pixels.
     pub class: RegionClass,
-    /// Left, top, width and height in pixels.
+    /// Left, top, width and height in pixels. Width and height are 1 or more, and the rectangle
+    /// lies within the frame.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rectangle: Option<[u32; 4]>,
-    /// The corners in pixels from the left and from the top. A pixel belongs to the polygon if an
-    /// odd number of its sides lies on the right of the center of the pixel.
+    /// Three or more corners in pixels from the left and from the top, within the frame. A pixel
+    /// belongs to the polygon if a line from its center to the right crosses an odd number of
+    /// sides.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub polygon: Option<Vec<[u32; 2]>>,
 }

@@ -127,7 +127,8 @@ impl DesignArgs {
     /// Returns the folder of a relative path in `zones.map`: that of the file, or the working folder
     /// for a path in `--set`.
     fn map_folder(&self) -> PathBuf {
-        let is_overridden = self.overrides.iter().any(|one| one.trim_start().starts_with("zones"));
+        let mut keys = self.overrides.iter().filter_map(|one| Some(one.split_once('=')?.0.trim()));
+        let is_overridden = keys.any(|key| key == "zones" || key == "zones.map");
         let file = self.config.as_deref().filter(|_| !is_overridden);
         file.and_then(Path::parent).unwrap_or(Path::new("")).to_owned()
     }

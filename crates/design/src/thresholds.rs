@@ -57,7 +57,10 @@ impl Design {
         for feature in thresholds.features {
             let kind = feature.kind();
             if let Some(level) = feature.level() {
-                let doc = "a pixel is a hit above this";
+                let doc = match kind.counts_window_hits() {
+                    true => "a pixel is a hit above this",
+                    false => "a pixel counts if it is farther from the mean than this",
+                };
                 add(PortRole::Level(kind), feature.level_bits(), level.into(), doc);
             }
             let doc = "the feature votes from this score on";

@@ -59,7 +59,8 @@ impl<T: PixelLane> CameraPlan<T> {
                 FeatureKind::Flow => {
                     let regions = affected.iter().zip(valid).zip(&mut *results.displacements);
                     for (at, ((&affected, &valid), displacement)) in regions.enumerate() {
-                        // The displacement and the score of other regions are 0, and stay so.
+                        // A region that is not affected stands still, and its last displacement
+                        // was 0: `select_runs` adds all others. So its score was 0, and stays 0.
                         if affected {
                             (*displacement, scores[at]) = match valid {
                                 true => flow::best_match(flow_errors, at),

@@ -13,10 +13,14 @@ use crate::picture::read_rgb;
 /// path is relative to `folder`. Without such an image nothing happens.
 ///
 /// # Errors
-/// Fails if the image cannot be read, or if it has a pixel whose colour is no class.
+/// Fails if the image cannot be read, if it has a pixel whose colour is no class, or if the
+/// configuration has `zones.classes`, too.
 pub fn read_class_map(config: &mut CameraConfig, folder: &Path) -> Result<(), FootageError> {
     let Some(zones) = &mut config.zones else { return Ok(()) };
     if let Some(map) = zones.map.take() {
+        if !zones.classes.is_empty() {
+            return Err(FootageError::ClassesTwice { map });
+        }
         zones.classes = class_rows(&folder.join(map))?;
     }
     Ok(())
@@ -78,6 +82,14 @@ mod tests {
                 (None, rows.iter().map(|&row| row.into()).collect())
             );
         }
+    }
+
+    #[test]
+    fn a_map_beside_classes_is_refused() {
+        let mut config = config("map.png");
+        config.zones.as_mut().unwrap().classes = vec!["01".to_owned()];
+        let error = read_class_map(&mut config, Path::new("")).unwrap_err();
+        assert!(matches!(error, FootageError::ClassesTwice { .. }), "{error}");
     }
 
     #[test]

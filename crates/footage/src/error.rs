@@ -30,6 +30,15 @@ pub enum FootageError {
         /// The path as given.
         path: PathBuf,
     },
+    /// A configuration has the classes of its regions in an image and as text.
+    #[error(
+        "the configuration has both the image `zones.map` = `{map}` and `zones.classes`, which give every region a class; \
+         leave one of them out"
+    )]
+    ClassesTwice {
+        /// The path of the image as given.
+        map: String,
+    },
     /// An image that is a map of zones has a colour that is no class.
     #[error(
         "the map `{}`: pixel ({x}, {y}) is ({red}, {green}, {blue}), which is no class; black or 0 is normal, red \

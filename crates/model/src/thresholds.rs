@@ -8,7 +8,7 @@ use foveate_design::Design;
 /// camera. Elements that the camera does not use are ignored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ThresholdInputs {
-    /// Per-pixel thresholds of the features that count hits.
+    /// Per-pixel thresholds of `edge`, `corner` and `segment` in grey levels; 0 for other features.
     pub level: [u32; FeatureKind::COUNT],
     /// Per-region thresholds in units of the scores.
     pub min_score: [u64; FeatureKind::COUNT],

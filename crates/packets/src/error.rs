@@ -72,7 +72,7 @@ pub enum PacketError {
     },
     /// A displacement is outside the search of the design.
     #[error(
-        "the displacement of a packet cannot be ({dx}, {dy}): its numbers are -{radius} to {radius}"
+        "the displacement of a packet cannot be ({dx}, {dy}): dx and dy are -{radius} to {radius}"
     )]
     DisplacementOutOfRange {
         /// The columns to the right.

@@ -306,7 +306,7 @@ fn flow(head: PacketHead, payload: &[u8], layout: &PacketLayout) -> Option<FlowP
         // A shift to the left and one to the right extend the sign of four bits.
         let bits = byte.cast_signed();
         let displacement = Displacement { dx: bits << 4 >> 4, dy: bits >> 4 };
-        (displacement.largest_number() <= radius).then_some(displacement)
+        (displacement.largest_coordinate() <= radius).then_some(displacement)
     });
     Some(FlowPacket { row: head.row.into(), displacements: displacements.collect::<Option<_>>()? })
 }

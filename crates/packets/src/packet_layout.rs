@@ -152,7 +152,7 @@ impl PacketLayout {
         info.fingerprint != self.info.fingerprint || info.map_version <= self.map_version_max()
     }
 
-    /// Returns the largest number of a displacement; `None` for a design without `flow`.
+    /// Returns the radius of the search of `flow` in pixels; `None` for a design without `flow`.
     pub(crate) fn flow_radius(&self) -> Option<u32> {
         self.flow_radius
     }

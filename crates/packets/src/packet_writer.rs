@@ -153,7 +153,7 @@ pub fn append_flow(
         return Err(PacketError::FieldOutOfRange { field, value, least: FRAME_TYPE.into(), most });
     };
     check_count("FLOW", "displacements", displacements.len(), layout.info().columns.into())?;
-    if let Some(wrong) = displacements.iter().find(|one| one.largest_number() > radius) {
+    if let Some(wrong) = displacements.iter().find(|one| one.largest_coordinate() > radius) {
         let Displacement { dx, dy } = *wrong;
         return Err(PacketError::DisplacementOutOfRange { dx, dy, radius });
     }

@@ -232,8 +232,9 @@ pub extern "C" fn foveate_regions(handle: u32) -> i32 {
     with_page_state(|counter| counter.answer_values(handle, |camera| Ok(camera.regions())))
 }
 
-/// Answers with the displacements: three signed bytes per region, which are its columns, its rows and
-/// the vote of `flow`; nothing for a camera without `flow`.
+/// Answers with the displacements: three signed bytes per region, which are the columns to the
+/// right and the rows down by which its content moved, and 1 if `flow` votes for it, else 0. The
+/// answer is empty for a camera without `flow`, and before the first frame.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_displacements(handle: u32) -> i32 {
     with_page_state(|counter| counter.answer_values(handle, |camera| Ok(camera.displacements())))

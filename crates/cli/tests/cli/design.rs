@@ -202,6 +202,10 @@ fn wrong_configurations_end_with_2_and_one_line() {
     fail(&["check", "--preset", "papre"], &["`papre`", "paper"]);
     fail(&["check", "--set", "region.size"], &["--set region.size", "KEY=VALUE"]);
     fail(&["check", "--set", "hardware.fold=2"], &["`hardware.fold` = 2", "use 1"]);
+    fail(
+        &["check", "--set", "zones.areas=[]", "--set", "zones.areas.0.class=off"],
+        &["`0` is not an index into `zones.areas`"],
+    );
     fail(&["generate", "--set", "region.size=1", "-o", "core"], &["2..=64"]);
     assert!(!dir.path().join("core").exists());
 }

@@ -45,6 +45,27 @@ fn a_map_has_a_pixel_for_each_region_or_for_each_pixel() {
     assert!(run_successfully(dir.path(), &set).contains("4 off"));
 }
 
+/// The folder of the file is that of its map, also if `--set` changes other keys of the zones.
+#[test]
+fn a_map_stays_in_the_folder_of_its_file_beside_other_keys() {
+    let dir = tempfile::tempdir().unwrap();
+    let folder = dir.path().join("designs");
+    fs::create_dir(&folder).unwrap();
+    fs::write(folder.join("camera.toml"), FILE).unwrap();
+    write_image(&folder.join("map.pgm"), (4, 3), |x, y| CODES[4 * y + x]);
+    write_image(&dir.path().join("map.pgm"), (4, 3), |_, _| 3);
+    let check = |setting: &str, expected: &str| {
+        let set = ["check", "--config", "designs/camera.toml", "--set", setting];
+        let found = run_successfully(dir.path(), &set);
+        assert!(found.contains(expected), "{setting}: {found}");
+    };
+    for setting in ["zones.keen.temporal.level=5", "zones.areas=[]", " zones.keen={}"] {
+        check(setting, "5 normal, 4 off, 2 keen, 1 always");
+    }
+    check("zones.map=\"map.pgm\"", "12 always");
+    check("zones={map='map.pgm'}", "12 always");
+}
+
 #[test]
 fn maps_that_do_not_fit_are_refused_with_their_place() {
     let dir = tempfile::tempdir().unwrap();
@@ -57,6 +78,9 @@ fn maps_that_do_not_fit_are_refused_with_their_place() {
     fails(&["map.pgm", "pixel (2, 0) is (9, 9, 9)", "black or 0 is normal"]);
     write_image(&dir.path().join("map.pgm"), (5, 3), |_, _| 0);
     fails(&["3 rows of 5 classes", "3 rows of 4 classes", "24 rows of 32"]);
+    // A map and classes would say the same twice.
+    let both = ["check", "--config", "camera.toml", "--set", "zones.classes=[\"0\"]"];
+    expect_failure(dir.path(), 2, &both, &["zones.map", "map.pgm", "zones.classes"]);
     let text = FILE.replace("map = \"map.pgm\"", "classes = [\"0123\", \"4000\", \"0000\"]");
     fs::write(dir.path().join("camera.toml"), text).unwrap();
     fails(&["zones.classes[1]", "'4'"]);

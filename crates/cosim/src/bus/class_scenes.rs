@@ -184,8 +184,9 @@ impl<'a> SceneBuilder<'a> {
         traffic.read(address, ExpectedRead::Value(behind));
     }
 
-    /// Commits the map after `version` commits. While it waits, if it does, neither a word nor
-    /// another commit has an effect.
+    /// Commits the map that was written. `version` is the number of commits before this one. If
+    /// the commit `waits` for the end of a frame, also checks that a word and another commit then
+    /// have no effect.
     fn commit_map(&self, traffic: &mut Traffic<'a>, version: u16, waits: bool) {
         let [word, address, control] =
             ["zone_word", "zone_address", "zone_control"].map(|name| self.address(name));

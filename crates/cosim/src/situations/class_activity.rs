@@ -9,7 +9,7 @@ use foveate_design::{CLASS_BITS, CLASSES_PER_WORD, RegionClass};
 /// The classes of the last frame, and whether a map waits.
 #[derive(Clone, Debug, Default)]
 pub(super) struct ClassActivity {
-    /// The codes of the classes of the last frame; empty behind a reset.
+    /// The codes of the classes of the last frame; empty after a reset until a frame begins.
     codes: Vec<u64>,
     was_pending: bool,
 }

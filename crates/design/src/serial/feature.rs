@@ -43,8 +43,8 @@ fn flow_search(design: &Design, feature: &SpatialFeature) -> FlowSearch {
     FlowSearch::new(radius, design.region_size(), design.pixel_bits())
 }
 
-/// Returns true if the lanes compute an operand from the word first: a difference, or some of its
-/// bits.
+/// Returns true if the lanes compute an operand from the word that they read: a difference from
+/// another word, or some of the bits of the word.
 pub(super) fn has_computed_operand(feature: &SpatialFeature) -> bool {
     match feature.kind() {
         FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Segment => false,
@@ -79,8 +79,8 @@ pub(super) fn chain_bits(design: &Design, feature: &SpatialFeature) -> u32 {
         | FeatureKind::Range
         | FeatureKind::Surface
         | FeatureKind::Flow => 0,
-        // The pixels above are counted, and then those that are not below. A region has no mean
-        // that all of its pixels are above.
+        // The word holds the number of pixels above plus the number of those that are not below. It
+        // is at most 2n - 1, because no mean has all pixels of its region above it.
         FeatureKind::Segment => bits_for(u64::from(2 * design.region_pixels() - 1)),
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The search of `flow` in a serial array: the weights with which sums over regions of different
-//! sizes compare like their means.
+//! The search of `flow` in a serial array: the weights with which sums over different numbers of
+//! pixels compare like their means.
 //!
 //! The weight of a displacement d is c(d) = a^2 / n(d). Here a is the least common multiple of the
 //! numbers N, N-1, .. N-R of columns that can have a partner, so every weight is an integer.
@@ -47,7 +47,7 @@ impl FlowSearch {
     /// Returns the bits of a coordinate of a displacement, in two's complement.
     #[must_use]
     pub fn coordinate_bits(&self) -> u32 {
-        bits_for(self.radius.into()) + 1
+        Displacement::coordinate_bits(self.radius)
     }
 }
 

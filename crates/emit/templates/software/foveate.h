@@ -108,8 +108,10 @@ foveate_status foveate_set(const foveate_core *core, const foveate_threshold *th
 /* The classes of regions. */
 enum { FOVEATE_NORMAL = 0, FOVEATE_OFF = 1, FOVEATE_KEEN = 2, FOVEATE_ALWAYS = 3 };
 
-/* Writes a map with a class for each region, row by row, and commits it: the next frame uses it. The second function returns the
- * version of the map that was committed last, which the FRAME packets of frames with this map have. */
+/* Writes a map and commits it: frames that begin later use it. `classes` has columns * rows classes of regions, row by row. Nothing is
+ * written, and the result is FOVEATE_TOO_LARGE, if a class is above FOVEATE_ALWAYS; or FOVEATE_BUSY, if the map before still waits for
+ * the end of a frame: then call it again later. The second function returns the version of the map that was committed last, modulo
+ * 2^16, which the FRAME packets of frames with this map have. */
 foveate_status foveate_set_classes(const foveate_core *core, const uint8_t *classes);
 uint16_t foveate_map_version(const foveate_core *core);
 #endif

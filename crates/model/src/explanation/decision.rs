@@ -82,7 +82,8 @@ pub struct FeatureVote {
     pub score: u64,
     /// The smallest score that votes.
     pub min_score: u64,
-    /// Divisor that turns a score into grey levels.
+    /// Divisor that turns a score into grey levels (squared grey levels for `variance`); 1 for
+    /// counts.
     pub unit: u64,
     /// True if the feature votes.
     pub vote: bool,

@@ -254,7 +254,7 @@ pub(super) fn rule(camera: &Camera, srs: bool, trs: bool, action: RegionAction) 
                     "its means are sent and shown (irrelevant = \"mean\")"
                 }
                 IrrelevantRendering::Mean => {
-                    "its means are near those on the screen (irrelevant = \"mean\")"
+                    "no mean differs by more than the level (irrelevant = \"mean\")"
                 }
             };
             format!("TRS any, SRS 0: inactive, {then}")

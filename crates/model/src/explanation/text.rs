@@ -216,7 +216,7 @@ impl DisplacementExplanation {
     /// Returns the movement in words, and the mean errors without and with it.
     fn lines(&self) -> Vec<String> {
         let Some(differences) = self.differences else {
-            return vec!["no reference is valid, so no movement is searched".to_owned()];
+            return vec!["there is no valid reference, so no movement can be found".to_owned()];
         };
         let still = differences.still.mean_text();
         match self.movement_text() {

@@ -7,7 +7,7 @@ use foveate_camera::Displacement;
 use crate::conversions::index;
 use crate::region_view::RegionView;
 
-/// The sum of differences between a region and its reference, displaced.
+/// The sum of the differences between a region and its displaced reference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DisplacedError {
     /// The displacement d.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The feature `surface`: the smallest sum of differences between the region and itself, moved by
-//! one pixel in four directions.
+//! The feature `surface`: the smallest of four sums, each of the differences between the region and
+//! a copy of itself that is moved by one pixel in one of four directions.
 
 use serde::Serialize;
 

@@ -187,7 +187,7 @@ fn displacements_that_do_not_fit_are_refused() {
         let (dx, dy) = wrong;
         assert_eq!(
             refusal(&widest, 0, &row).to_string(),
-            format!("the displacement of a packet cannot be ({dx}, {dy}): its numbers are -3 to 3")
+            format!("the displacement of a packet cannot be ({dx}, {dy}): dx and dy are -3 to 3")
         );
     }
     assert_eq!(

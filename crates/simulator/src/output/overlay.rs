@@ -91,7 +91,8 @@ impl PicturePainter for OverlayPainter {
             camera: sink_frame.camera,
             outcome: sink_frame.outcome,
             frame: &sink_frame.source.frame,
-            // A recording says of another map only that it is not that of the design.
+            // A recording has the version of the map and not its classes. Version 0 is the map of
+            // the design; the classes of any other version are not known.
             has_own_map: sink_frame.map_version.is_none_or(|version| version == 0),
         };
         shown.draw(&mut canvas, layout, self.has_scores);

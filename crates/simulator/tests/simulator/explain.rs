@@ -163,7 +163,7 @@ fn a_movement_is_explained_in_words() {
     assert_eq!(
         lines(0),
         "flow      0 < 128: does not vote; 0.000 per pixel\n          \
-         no reference is valid, so no movement is searched\n"
+         there is no valid reference, so no movement can be found\n"
     );
     assert_eq!(
         lines(1),

@@ -567,7 +567,8 @@ module raster_core #(
         end
     endgenerate
 
-    // Two bits come with the counts of a region: a mean of it differs, and its summary is shown. Its class comes, too.
+    // With SUMMARIES two bits come with the counts of a region: one of its means differs, and the screen shows its summary. With ZONES
+    // the class of the region comes, too.
     localparam SUMMARIES = BLOCKS > 0 ? 1 : 0;
     localparam OTHER_BITS = SETTLED_BITS + 2 * SUMMARIES + 2 * ZONES;
     wire differs, settled_differs, judged_differs;

@@ -2,12 +2,12 @@
 // The classes of all regions in two banks: one that frames use, and one that is written. A commit exchanges them, and the
 // next frame takes the other bank. docs/zones.md defines when.
 //
-// Writes and commits wait for no frame: while a frame still uses the bank that is written next, both are ignored.
+// A commit is pending until no frame uses the other bank. Until then writes and commits are ignored, and do not wait.
 `default_nettype none
 
 module class_memory #(
     parameter REGIONS = 784,                // regions of the frame
-    parameter REGION_BITS = 10,             // bits of region_i, at least 4 fewer than those of the memory
+    parameter REGION_BITS = 10,             // bits of region_i; a number that is no region gives any class
     parameter ADDRESS_BITS = 6,             // bits of the number of a word, at least 1
     parameter [2*REGIONS-1:0] CLASSES = 0   // the first map, region 0 in the lowest bits
 ) (

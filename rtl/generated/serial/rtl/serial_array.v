@@ -208,7 +208,7 @@ module serial_array #(
         end
     endgenerate
 
-    localparam GROUP_LANES = RASTER != 0 ? 64 : 96;  // a group selects one of 64
+    localparam GROUP_LANES = RASTER != 0 ? 64 : 96;  // lanes of a group; with RASTER a group selects one of its lanes by 8 rows and 8 columns
     localparam GROUPS = (LANES + GROUP_LANES - 1) / GROUP_LANES;
     localparam BORDERS = FILTER != 0 && DENOISED_SIDE != SIDE;
     localparam SUMMARIES = BLOCKS != 0 ? 1 : 0;
@@ -345,7 +345,7 @@ module serial_array #(
     // Lanes.
     wire [(LANES+1)*CHAIN_BITS-1:0] ring;
     wire [(LANES+1)*FLAGS-1:0] flags;
-    wire [LANES:0] keen;  // keen[LANES] is of the region that passes
+    wire [LANES:0] keen;  // keen[i]: the region of lane i is keen; keen[LANES]: the region whose class passes is keen
     wire unused_keen = keen[0];
     wire [LANES*WIDTH-1:0] words;
     localparam DISPLACEMENT_BITS = FLOW ? 2 * COORDINATE_BITS : 1;
@@ -415,7 +415,7 @@ module serial_array #(
     endgenerate
 
     // Classes.
-    wire [1:0] passing_class;  // of region_o
+    wire [1:0] passing_class;  // class of region_o
 
     generate
         if (ZONES) begin : g_zones

@@ -3,8 +3,9 @@
 // search is by |dx| + |dy|, then by dy, then by dx (docs/contract.md, "Flow"). The outputs are those of the step of the
 // same clock, except preceding_o.
 //
-// The weight of a displacement is a * a / ((SIDE - |dx|) * (SIDE - |dy|)), where a is the least common multiple of SIDE and the
-// RADIUS numbers below it. So sums over regions of different sizes, times their weights, compare like their means.
+// The weight of a displacement is a * a / ((SIDE - |dx|) * (SIDE - |dy|)), where SIDE is the side of a region in pixels, and a the least
+// common multiple of SIDE and the RADIUS numbers below it. So sums over different numbers of pixels, times their weights, compare like
+// their means.
 `default_nettype none
 
 module serial_flow #(
