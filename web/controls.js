@@ -154,7 +154,7 @@ export class Controls {
   }
 
   #key(key, name, facts, feature) {
-    const rangeOf = own => own.bounds[replacedKey(own.config, key)] ?? this.#tables.keys.find(known => known.key === key);
+    const rangeOf = own => own.bounds[key] ?? own.bounds[replacedKey(own.config, key)] ?? this.#tables.keys.find(known => known.key === key);
     const title = feature ? `${name}, ${feature}` : name;
     const row = rangeOf(facts).kind === "choice" ? choice(key, name, title) : number(key, name, title);
     if (feature) row.element.classList.add("indented");

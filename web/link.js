@@ -5,7 +5,7 @@
 
 import { withFittingMeans } from "./means.js";
 import { keysOf, valueOf, withKey } from "./toml.js";
-import { mapOfText, textOfMap } from "./zones.js";
+import { mapOf, mapOfText, textOfMap } from "./zones.js";
 
 const PAGE_KEYS = ["source", "size", "preset"];
 /** Settings of the network, as in `foveate infer`; its file stays on the computer where it was opened. */
@@ -22,12 +22,12 @@ const MAP_KEY = "zones.classes";
 const MAX_MAP = 6000;
 
 /** Returns whether the map of a configuration is too long for a link, because neighboring regions have different classes. */
-export const isMapTooFine = config => textOfMap(config.zones?.classes ?? []).length > MAX_MAP;
+export const isMapTooFine = config => textOfMap(mapOf(config)).length > MAX_MAP;
 
 /** Returns a configuration with the map of its zones as a text, which is empty if it is too long for a link. */
 function withMapText(config) {
   if (!config.zones) return config;
-  return { ...config, zones: { ...config.zones, classes: isMapTooFine(config) ? "" : textOfMap(config.zones.classes ?? []) } };
+  return { ...config, zones: { ...config.zones, classes: isMapTooFine(config) ? "" : textOfMap(mapOf(config)) } };
 }
 
 /** Returns the fragment without `#`. `preset` is the configuration of that preset. */

@@ -20,7 +20,7 @@ import { Recording } from "./recording.js";
 import { Screens } from "./screens.js";
 import { Clip, Computer, Pictures, Scene, Webcam } from "./sources.js";
 import { writeToml } from "./toml.js";
-import { ZonePainter, withFittingMap, withHeldValue, withoutOtherFeatures } from "./zones.js";
+import { ZonePainter, mapOf, withFittingMap, withHeldValue, withoutOtherFeatures } from "./zones.js";
 
 const SIZES = ["160x120", "224x224", "320x240", "640x480", "1280x720"];
 const DEFAULT_SIZE = "640x480";
@@ -32,6 +32,8 @@ const frames_path = document.documentElement.dataset.frames;
 let engine, tables, presets, hardwareTable;
 let settings = { ...START };
 let camera = null, config = null, source = null, pixels = null, files = [];
+/** The map of zones as it was painted or read. The map of `config` is always fitted from this one, so that it is not rounded again and again. */
+let paintedMap = [];
 let paused = matchMedia("(prefers-reduced-motion: reduce)").matches;
 /** The last chosen number of means per side. */
 let means = 1;
@@ -63,18 +65,28 @@ function sizeOf() {
   return { width, height };
 }
 
-/** Makes the camera of a configuration, or throws the engine's message and leaves the camera as it was. */
-function configure(wantedConfig) {
-  const { width, height } = sizeOf();
-  const newCamera = engine.configure(writeToml(withFittingMap(wantedConfig, width, height)), width, height);
+/** Returns a function that makes the camera of a configuration and a map of zones for frames of a size, to which it fits the map. */
+const makerOf = (ownConfig, map) => ({ width, height }) =>
+  engine.configure(writeToml(withFittingMap(ownConfig, map, width, height)), width, height);
+
+/** Makes the camera of a configuration and a map of zones, and the kept camera for frames of the same size, or throws the engine's message and
+ *  leaves both cameras as they were. */
+function configure(wantedConfig, map = paintedMap) {
+  const newCamera = makerOf(wantedConfig, map)(sizeOf());
+  try {
+    pinned.resize(newCamera.facts);
+  } catch (error) {
+    newCamera.free();
+    throw error;
+  }
   recording.end();
   camera?.free();
   camera = newCamera;
   config = withoutSize(newCamera.facts.config);
+  paintedMap = map;
   means = config.periphery?.blocks ?? means;
   begin();
   screens.resize(camera.facts);
-  pinned.resize(makeCamera, camera.facts);
   zones.show(camera.facts);
   controls.show(camera.facts, settings.preset);
   showHardware(byId("area"), hardwareTable, camera.facts, tables.features);
@@ -82,9 +94,6 @@ function configure(wantedConfig) {
   storeLink();
   if (paused) repeatFrames();
 }
-
-/** Makes a camera beside the one of the page. */
-const makeCamera = (toml, width, height) => engine.configure(toml, width, height);
 
 function describe() {
   const { width, height, columns, rows, side, fingerprint } = camera.facts;
@@ -168,8 +177,9 @@ function choosePreset(name) {
     settings.preset = name;
     try {
       // The painted map stays.
-      const map = config.zones?.classes;
-      configure({ ...presetConfig(name), ...(map && { zones: { classes: map } }) });
+      const wish = presetConfig(name);
+      if (paintedMap.length) configure({ ...wish, zones: { classes: paintedMap } });
+      else configure(wish, mapOf(wish));
       replacedHardware = null;
     } catch (error) {
       settings.preset = previous;
@@ -186,6 +196,7 @@ function applyZones(codes) {
     if (!config.zones) configure({ ...config, zones: {} });
     camera.setClasses(codes);
     config = withoutSize(camera.facts.config);
+    paintedMap = mapOf(config);
     zones.show(camera.facts);
     screens.showZones(camera.facts);
     if (last.length) screens.paint(camera);
@@ -203,7 +214,7 @@ function endStroke() {
 
 function clearZones() {
   const { zones: gone, ...others } = config;
-  notice(messageOf(() => configure(others)));
+  notice(messageOf(() => configure(others, [])));
 }
 
 // --- The source
@@ -236,6 +247,8 @@ let tickets = 0;
 /** Changes the source. If it does not open, the old one stays. */
 async function choose(name) {
   const previous = settings.source, ticket = ++tickets;
+  // The map of a link is not yet fitted to the frames of the source that opens; a link stored now would lose parts of it.
+  clearTimeout(linkTimer);
   notice();
   setText("status", name === "webcam" ? "waiting for the camera" : "opening");
   let newSource;
@@ -248,6 +261,7 @@ async function choose(name) {
     notice(error.message);
     byId("source").value = source ? previous : "";
     setText("status", camera ? describe() : "");
+    if (camera) storeLink();
     return false;
   }
   // Another source was chosen while this one opened.
@@ -439,11 +453,14 @@ async function fromLink() {
   showSizes();
   const preset = presetConfig(settings.preset), from = settings.source;
   // The camera must exist before a source gives it frames.
-  const cameraError = messageOf(() => configure(linkError ? preset : wish.apply(preset)));
+  const cameraError = messageOf(() => {
+    const linked = linkError ? preset : wish.apply(preset);
+    configure(linked, mapOf(linked));
+  });
   if (cameraError) {
     settings.size = "";
     showSizes();
-    configure(preset);
+    configure(preset, mapOf(preset));
   }
   let message = linkError ?? (cameraError && `the link is refused: ${cameraError}`);
   if (!await choose(from) && !source) {
@@ -468,12 +485,15 @@ function addListeners() {
     make("optgroup", { label: "scenes" }, ...tables.scenes.map(scene => option(`scene:${scene.name}`, scene.name, { title: scene.summary }))));
   byId("source").onchange = event => choose(event.target.value);
   byId("size").onchange = event => {
-    const before = settings.size;
+    const before = settings.size, oldFrames = last;
     settings.size = event.target.value;
     last = [];
     const message = messageOf(() => configure(config));
     notice(message);
-    if (message) byId("size").value = settings.size = before;
+    if (message) {
+      byId("size").value = settings.size = before;
+      last = oldFrames;
+    }
     // A camera source is asked for frames of that size.
     else if (settings.source === "webcam") choose("webcam");
     else if (paused) isStepRequested = true;
@@ -502,7 +522,7 @@ function addListeners() {
   addEventListener("keyup", event => { if (event.key === "c") compare(false); });
   byId("outlines").onchange = event => screens.showOutlines(event.target.checked, last.length ? camera : null);
   byId("pin").onclick = () => notice(messageOf(() => {
-    pinned.pin(camera.facts.toml, makeCamera, camera.facts);
+    pinned.pin(makerOf(config, paintedMap), camera.facts);
     begin();
     if (paused) repeatFrames();
   }));

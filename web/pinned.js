@@ -6,7 +6,7 @@ import { Headline } from "./figures.js";
 import { paintGrey, resizeView } from "./screens.js";
 
 export class PinnedCamera {
-  #camera = null; #toml = ""; #view; #headline = new Headline("pinned-headline");
+  #camera = null; #make = null; #view; #headline = new Headline("pinned-headline");
 
   constructor() {
     const canvas = document.createElement("canvas");
@@ -16,25 +16,30 @@ export class PinnedCamera {
 
   get isOn() { return this.#camera !== null; }
 
-  /** Takes a camera of this TOML, which `make(toml, width, height)` makes. */
-  pin(toml, make, { width, height }) {
+  /** Takes the camera that `make(size)` makes for frames of a size { width, height }. If that throws, the old one stays. */
+  pin(make, { width, height }) {
+    const camera = make({ width, height });
     this.release();
-    this.#camera = make(toml, width, height);
-    this.#toml = toml;
+    this.#camera = camera;
+    this.#make = make;
     resizeView(this.#view, width, height);
     this.#headline.reset();
     this.#show(true);
   }
 
-  /** Makes the same camera for frames of another size. */
-  resize(make, size) {
+  /** Makes the same camera for frames of another size, or throws and leaves the old one. */
+  resize(size) {
     if (!this.isOn || (size.width === this.#camera.facts.width && size.height === this.#camera.facts.height)) return;
-    this.pin(this.#toml.replace(/^(width|height) = .*$/gm, ""), make, size);
+    try {
+      this.pin(this.#make, size);
+    } catch (error) {
+      throw new Error(`the kept camera: ${error.message}`);
+    }
   }
 
   release() {
     this.#camera?.free();
-    this.#camera = null;
+    this.#camera = this.#make = null;
     this.#show(false);
   }
 

@@ -9,12 +9,12 @@ const SIDE = 128;
 /** Shows an explanation { json, text } of the engine. */
 export function showReasons(place, { json, text }) {
   const open = place.querySelector("details")?.open ?? false;
-  const { region, rule, srs, trs } = json;
-  const words = [...json.spatial.map(feature), `${srs ? "Relevant" : "Not relevant"} (SRS is ${Number(srs)}): ${json.combine === "any" ? "one vote is enough" : "all votes are needed"}.`,
-    change(json), `${trs ? "Changed" : "Unchanged"} (TRS is ${Number(trs)}).`, ...summary(json)];
+  const { region, rule, trs } = json, ofClass = json.class ? `, class ${json.class}` : "";
+  const words = [...json.spatial.map(feature), relevance(json), change(json),
+    `${trs ? "Changed" : "Unchanged"} (TRS is ${Number(trs)}).`, ...summary(json)];
   const inside = `pixels ${region.x0} to ${region.x0 + region.size - 1} by ${region.y0} to ${region.y0 + region.size - 1}`;
   place.replaceChildren(
-    make("p", {}, make("strong", { textContent: `Region ${region.x},${region.y}` }), ` of ${region.columns} x ${region.rows}, ${inside}, frame ${json.frame}.`),
+    make("p", {}, make("strong", { textContent: `Region ${region.x},${region.y}` }), ` of ${region.columns} x ${region.rows}, ${inside}${ofClass}, frame ${json.frame}.`),
     make("p", {}, make("strong", { textContent: sentence(rule) })),
     make("ul", {}, ...words.map(textContent => make("li", { textContent }))),
     make("div", { className: "grids" }, ...grids(json)),
@@ -36,6 +36,14 @@ function feature({ feature, level, mean, mean_fraction_bits, parts, displacement
     title += `, ${movement(displacement)}`;
   } else if (level !== undefined) title = `${feature}: ${score} pixels above level ${level}`;
   return `${title}; ${perPixel(min_score)} needed: ${vote ? "votes" : "does not vote"}.`;
+}
+
+/** Says whether a region is relevant, and what decides that: its class or its votes. */
+function relevance({ srs, combine, class: name }) {
+  const votes = combine === "any" ? "one vote is enough" : "all votes are needed";
+  const ofClass = new Map([["keen", `${votes}, at the thresholds of the class keen`],
+    ...["off", "always"].map(own => [own, `the class ${own} decides, whatever the votes are`])]);
+  return `${srs ? "Relevant" : "Not relevant"} (SRS is ${Number(srs)}): ${ofClass.get(name) ?? votes}.`;
 }
 
 /** Says by how much the content of a region has moved, and the mean errors without and with the movement. */

@@ -15,18 +15,19 @@ const BRUSHES = [1, 3, 5, 9];
 /** More regions than any frame of the page has. */
 const MAX_REGIONS = 1 << 20;
 
+/** Returns the rows of the map of a configuration, none if it has no map. */
+export const mapOf = config => config.zones?.classes ?? [];
+
 /** Returns the number of the class of every region of a camera, row by row. */
 export function classesOf({ config, columns, rows }) {
-  const text = (config.zones?.classes ?? []).join("");
+  const text = mapOf(config).join("");
   return Uint8Array.from({ length: columns * rows }, (_, region) => Number(text[region] ?? 0));
 }
 
-/** Returns the configuration with a map that fits the grid of a frame of this size: each region has the class that was at its centre. */
-export function withFittingMap(config, width, height) {
-  const map = config.zones?.classes ?? [], side = config.region?.size;
-  const [columns, rows] = [Math.ceil(width / side), Math.ceil(height / side)];
-  const isFitting = map.length === rows && map.every(row => row.length === columns);
-  if (!map.length || isFitting || !(columns * rows >= 1 && columns * rows <= MAX_REGIONS)) return config;
+/** Returns the configuration with a map, fitted to the grid of a frame of this size: each region has the class that the map has at its centre. */
+export function withFittingMap(config, map, width, height) {
+  const side = config.region?.size, [columns, rows] = [Math.ceil(width / side), Math.ceil(height / side)];
+  if (!config.zones || !map.length || !(columns * rows >= 1 && columns * rows <= MAX_REGIONS)) return config;
   const at = (index, count, of) => Math.floor((index + 0.5) * of / count);
   const row = y => Array.from({ length: columns }, (_, x) => map[y][at(x, columns, map[y].length)]).join("");
   const classes = Array.from({ length: rows }, (_, y) => row(at(y, rows, map.length)));

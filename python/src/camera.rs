@@ -248,8 +248,9 @@ impl Camera {
         let state = &mut *guard;
         let number = state.frames;
         let time_us = state.clock.next(number, time_us.map(|MicroSeconds(time)| time))?;
-        camera.fit(state, grey.size())?;
+        // A frame of a wrong type is refused before it can change the size of the camera.
         grey.check(camera.config.camera.frame.pixel_bits)?;
+        camera.fit(state, grey.size())?;
         match &grey {
             Grey::Bytes(array) => {
                 let view = array.as_array();

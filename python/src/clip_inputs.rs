@@ -9,7 +9,7 @@ use foveate_footage::{
     ClipPlan, InputOptions, SourceKind, plan, skipped_in_words, source_from_memory,
 };
 use foveate_frame::ByteFrame;
-use foveate_playback::{ClipPlayer, PlaybackError};
+use foveate_playback::ClipPlayer;
 use numpy::PyUntypedArrayMethods;
 use pyo3::exceptions::{PyTypeError, PyUserWarning};
 use pyo3::prelude::*;
@@ -114,12 +114,12 @@ impl ClipInputs {
     }
 
     /// Refuses inputs that are several clips.
-    pub(crate) fn refuse_several(&self, options: &InputOptions) -> PyResult<()> {
+    fn refuse_several(&self, options: &InputOptions) -> PyResult<()> {
         let Self::Paths(paths) = self else { return Ok(()) };
         match plan(paths, options).map_err(raise)? {
             ClipPlan::One => Ok(()),
             ClipPlan::Batch(clips) => Err(value_error(format!(
-                "the inputs are {} clips; simulate them one after the other",
+                "the inputs are {} clips; take them one after the other",
                 clips.len()
             ))),
         }
@@ -132,7 +132,7 @@ impl ClipInputs {
         camera: &CameraConfig,
         options: &InputOptions,
     ) -> PyResult<ClipPlayer> {
-        let player = self.open(camera, options).map_err(raise)?;
+        let player = self.open(camera, options)?;
         match player.kind() {
             SourceKind::Clip => Ok(player),
             SourceKind::Set => Err(value_error(format!(
@@ -141,15 +141,18 @@ impl ClipInputs {
         }
     }
 
-    /// Opens the inputs as one clip or set.
+    /// Opens the inputs as one clip or set. Several clips are refused.
     pub(crate) fn open(
         self,
         camera: &CameraConfig,
         options: &InputOptions,
-    ) -> Result<ClipPlayer, PlaybackError> {
+    ) -> PyResult<ClipPlayer> {
+        self.refuse_several(options)?;
         match self {
-            Self::Paths(paths) => ClipPlayer::open(&paths, camera, options),
-            Self::Frames(frames) => Ok(source_from_memory(ARRAY_NAME, frames, options)?.into()),
+            Self::Paths(paths) => ClipPlayer::open(&paths, camera, options).map_err(raise),
+            Self::Frames(frames) => {
+                Ok(source_from_memory(ARRAY_NAME, frames, options).map_err(raise)?.into())
+            }
         }
     }
 }

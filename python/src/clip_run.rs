@@ -40,10 +40,8 @@ pub(crate) fn run_clip<'py>(
     let config = camera.config().clone();
     let inputs = ClipInputs::of("run", inputs, config.camera.frame.pixel_bits)?;
     inputs.warn_of_skipped(py, &options)?;
-    let mut player = at_once(py, move || {
-        inputs.refuse_several(&options)?;
-        inputs.open_clip("run", &config.camera, &options)
-    })??;
+    let rate = options.frame_rate;
+    let mut player = at_once(py, move || inputs.open_clip("run", &config.camera, &options))??;
     let (width, height) = player.size();
     let mut guard = camera.lock_state()?;
     let state = &mut *guard;
@@ -52,7 +50,7 @@ pub(crate) fn run_clip<'py>(
     let design = Arc::clone(&own.design);
     let mut columns = ClipColumns::new(&design, rendered)?;
     let mut stage = ProgressStage::new(Instant::now());
-    let start_us = state.clock.next(state.frames, None)?;
+    let start_us = state.clock.continuation(state.frames, rate);
     loop {
         py.check_signals()?;
         let taken = py.detach(|| take_next(&mut player, state, start_us, &mut columns))?;

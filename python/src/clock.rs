@@ -50,6 +50,17 @@ impl StepClock {
         Ok(time_us)
     }
 
+    /// Returns the time of the first frame of a clip that follows `number` frames, one period of
+    /// `rate` after the last of them.
+    pub(crate) fn continuation(&self, number: u64, rate: FrameRate) -> u64 {
+        match number.checked_sub(1) {
+            None => 0,
+            // Periods are rounded, so a clip in two runs has the times of one run.
+            Some(last) if self.last == rate.time_us(last) => rate.time_us(number),
+            Some(_) => self.last.saturating_add(rate.time_us(1)),
+        }
+    }
+
     /// Records a frame that was taken. A given time becomes the start from which later times are counted.
     pub(crate) fn take(&mut self, number: u64, time_us: u64) {
         let (since, from) = self.given;

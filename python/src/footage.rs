@@ -154,7 +154,7 @@ impl RunState {
 ///     The camera. The run makes its own camera of this design, which has seen no frame; the state of `camera` is
 ///     neither used nor changed.
 /// max_frames : int, optional
-///     Largest number of frames; a scene has exactly this many.
+///     Largest number of frames; a scene is made with exactly this many, of which `start`, `end` and `input_fps` choose.
 /// input_fps, rate : float or str, optional
 ///     Take at most this many frames per second; frame rate of images, which have no times (30).
 /// start, end : float or str, optional
@@ -215,8 +215,7 @@ pub(crate) fn simulate(
     let inputs = ClipInputs::of("simulate", inputs, config.camera.frame.pixel_bits)?;
     inputs.warn_of_skipped(py, &options)?;
     at_once(py, move || -> PyResult<Run> {
-        inputs.refuse_several(&options)?;
-        let player = inputs.open(&config.camera, &options).map_err(raise)?;
+        let player = inputs.open(&config.camera, &options)?;
         let (width, height) = player.size();
         let design = config.validate_for_frames(width, height).map_err(raise)?;
         let (total, engine) = (player.frames(), Engine::new(&design));

@@ -7,7 +7,7 @@ use foveate_footage::{
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyFloat};
 
 /// The options of all functions that read footage, by their names on the command line.
 const INPUT: [&str; 15] = [
@@ -81,8 +81,23 @@ fn unknown(function: &str, own: &[&str], name: &str) -> PyErr {
     ))
 }
 
+/// Writes a number without an exponent, with at most six decimal places.
+fn decimal_text(number: f64) -> String {
+    let text = format!("{number:.6}");
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
+}
+
 fn set(found: &mut InputOptions, name: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
-    let text = || -> PyResult<String> { Ok(value.str()?.to_string()) };
+    // Six decimal places are all that times and rates have.
+    let text = || -> PyResult<String> {
+        match value.cast::<PyFloat>() {
+            Ok(number) => Ok(decimal_text(number.value())),
+            Err(_) => Ok(value.str()?.to_string()),
+        }
+    };
     let wrong = |problem: String| PyValueError::new_err(format!("{name} = {value}: {problem}"));
     match name {
         "max_frames" => {

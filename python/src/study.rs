@@ -32,7 +32,7 @@ pub(crate) fn explain(
     let inputs = ClipInputs::of("explain", inputs, config.camera.frame.pixel_bits)?;
     inputs.warn_of_skipped(py, &options)?;
     let explanation = at_once(py, move || {
-        let player = inputs.open(&config.camera, &options).map_err(raise)?;
+        let player = inputs.open(&config.camera, &options)?;
         foveate_simulator::explain_region(&config, player, frame, region).map_err(raise)
     })??;
     Ok((json(&explanation)?, explanation.to_string()))
@@ -50,12 +50,13 @@ pub(crate) fn fidelity(
 ) -> PyResult<(String, Option<String>)> {
     let options = input_options("fidelity", &["ideal"], options)?;
     let config = config::read(camera, None)?;
-    let inputs = ClipInputs::of("fidelity", inputs, config.camera.frame.pixel_bits)?;
-    inputs.warn_of_skipped(py, &options)?;
     let ideal =
         ideal.map_or_else(|| Ok(config.clone()), |ideal| config::read(Some(ideal), None))?;
+    // The ideal camera takes the frames as they are; the design takes them with its own depth.
+    let inputs = ClipInputs::of("fidelity", inputs, ideal.camera.frame.pixel_bits)?;
+    inputs.warn_of_skipped(py, &options)?;
     let compared = interruptible(py, |cancel| {
-        let player = inputs.open(&ideal.camera, &options).map_err(raise)?;
+        let player = inputs.open(&ideal.camera, &options)?;
         compare(player, &config.camera, &ideal.camera, &CancelFlag(cancel)).map_err(raise)
     })??;
     Ok((json(&compared.figures)?, compared.problem))

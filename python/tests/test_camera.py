@@ -401,6 +401,16 @@ def test_a_copy_has_the_zones_that_were_set(size):
         assert (made.zones == camera.zones).all()
 
 
+def test_a_frame_of_a_wrong_type_changes_nothing():
+    camera = fv.Camera(frame={"pixel_bits": 6}, zones={})
+    camera.step(np.zeros((16, 16), "uint8"))
+    camera.zones = np.ones((2, 2), int)
+    camera.reset()
+    with pytest.raises(TypeError, match="uint16"):
+        camera.step(np.zeros((24, 24), "uint16"))
+    assert (camera.zones == 1).all() and camera.zones.shape == (2, 2)
+
+
 def test_a_map_stays_in_the_folder_of_its_file_beside_other_keys(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "designs").mkdir()

@@ -75,8 +75,39 @@ def camera_time(number):
 def test_the_rate_of_arrays_gives_their_times(frames):
     camera = fv.Camera()
     assert camera.run(frames[:3], rate=100).time_us.tolist() == [0, 10_000, 20_000]
-    assert camera.run(frames[:2], rate=100).time_us.tolist() == [53_333, 63_333]
-    assert camera.step(frames[0]).time_us == 96_666
+    assert camera.run(frames[:2], rate=100).time_us.tolist() == [30_000, 40_000]
+    assert camera.step(frames[0]).time_us == 73_333
+    # Floats are rates, too, and two halves have the times of the whole clip.
+    for rate in (30_000 / 1001, 100 / 3, 7):
+        whole, halves = fv.Camera().run(frames, rate=rate), fv.Camera()
+        parts = [halves.run(part, rate=rate).time_us for part in (frames[:6], frames[6:])]
+        assert np.abs(np.concatenate(parts) - whole.time_us).max() <= 1
+    assert len(fv.Camera().run(frames, start=1e-5).number) == len(frames) - 1
+
+
+def test_one_clip_is_asked_for(frames, tmp_path):
+    for name in ("a", "b"):
+        (tmp_path / name).mkdir()
+        for number, frame in enumerate(frames[:3]):
+            (tmp_path / name / f"{number}.pgm").write_bytes(b"P5 83 60 255\n" + frame.tobytes())
+    raster = {"hardware": {"organization": "raster"}}
+    for inputs in ([tmp_path / "a", tmp_path / "b"], tmp_path):
+        for call in (
+            lambda inputs: fv.Camera().run(inputs),
+            fv.simulate,
+            lambda inputs: fv.clocks(inputs, raster),
+            fv.pixel_events,
+            fv.fidelity,
+            lambda inputs: fv.explain(inputs, frame=0, region=(0, 0)),
+        ):
+            with pytest.raises(ValueError, match="the inputs are 2 clips"):
+                call(inputs)
+
+
+def test_arrays_of_the_ideal_camera_are_compared(frames):
+    coarse = {"frame": {"pixel_bits": 6}}
+    found = fv.fidelity(frames, coarse, ideal="paper")
+    assert 0 < found["psnr_ideal"] < 60
 
 
 def test_a_run_is_refused_with_a_reason(frames, tmp_path):

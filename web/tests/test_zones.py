@@ -8,7 +8,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from test_page import control, put, shown, step
+from test_page import control, drop, put, shown, step
 from waiting import until
 
 pytest_plugins = ["pages"]
@@ -202,6 +202,81 @@ def test_a_map_goes_with_size_side_features_and_preset(still, native):
     page.get_by_label("edge", exact=True).uncheck()
     assert page.locator("[data-key='feature.edge'] .refused").is_hidden()
     assert_as_simulated(page, native)
+
+
+def test_a_map_is_rounded_once(still, picture):
+    page = still(START)
+    brush(page, "off")
+    drag(page, "input", (3, 3))
+    painted = rows({(3, 3): "1"})
+    until(page, f"expected => JSON.stringify({MAP}) === JSON.stringify(expected)", painted)
+    page.select_option("#size", "224x224")
+    assert page.evaluate(f"({MAP}).length") == 28
+    # The link has the map that the camera uses.
+    until(page, "location.hash.includes('zones.classes=%2228x28:')")
+    page.select_option("#size", f"{WIDTH}x{HEIGHT}")
+    assert page.evaluate(MAP) == painted
+    for side in (16, 12, 8):
+        put(page, "region.size", side)
+    assert page.evaluate(MAP) == painted
+    # The first camera of a link has frames of 640x480, in which the only region that is off vanishes.
+    page = still("#source=scene:street&preset=fovea&zones.classes=%22160x2:o1n319%22")
+    drop(page, ("wide.png", "image/png", picture(1280, 16)))
+    until(page, f"{FACTS}.width === 1280")
+    assert page.evaluate(MAP) == ["1" + "0" * 159, "0" * 160]
+
+
+def test_a_kept_camera_with_zones_goes_with_size_and_source(still, picture):
+    page = still(f"{START}&zones.classes=%2220x15:o130k170%22")
+    page.click("#pin")
+    sizes = f"[{FACTS}.width, document.querySelector('#pinned-screen canvas').width, Number(document.getElementById('size').value.split('x')[0])]"
+    # If the kept camera is refused, all stays.
+    page.evaluate(
+        """() => {
+            const { engine } = foveate, configure = engine.configure.bind(engine);
+            let count = 0;
+            engine.configure = (...values) => { if (++count === 2) throw new Error("no room"); return configure(...values); };
+        }"""
+    )
+    page.select_option("#size", "320x240")
+    shown(page, "the kept camera: no room")
+    assert page.evaluate(sizes) == [WIDTH] * 3
+    page.evaluate("delete foveate.engine.configure")
+    page.select_option("#size", "320x240")
+    assert page.locator("#notice").is_hidden()
+    assert page.evaluate(sizes) == [320] * 3
+    until(page, "foveate.sums.frames >= 1")
+    step(page, 2)
+    # It is a camera like that of the page, so its receiver sees the same.
+    pixels = "id => document.querySelector(`#${id} canvas`).toDataURL()"
+    assert page.evaluate(pixels, "pinned-screen") == page.evaluate(pixels, "receiver")
+    page.select_option("#size", "")
+    drop(page, ("one.png", "image/png", picture(64, 48)))
+    until(page, f"{FACTS}.width === 64")
+    assert page.evaluate(sizes) == [64, 64, 0]
+    assert page.locator("#pinned").is_visible() and page.locator("#notice").is_hidden()
+
+
+def test_the_reasons_name_the_class_that_decides(still):
+    page = still(f"{START}&zones.classes=%2220x15:n1o1k1a1n296%22")
+    decided = {
+        "normal": "one vote is enough.",
+        "off": "Not relevant (SRS is 0): the class off decides, whatever the votes are.",
+        "keen": "one vote is enough, at the thresholds of the class keen.",
+        "always": "Relevant (SRS is 1): the class always decides, whatever the votes are.",
+    }
+    for x, (name, words) in enumerate(decided.items()):
+        page.mouse.click(*centre(page, "input", x, 0))
+        text = page.inner_text("#reasons")
+        assert f"Region {x},0 " in text and f", class {name}, frame " in text and words in text
+
+
+def test_the_slider_of_off_reaches_the_level_that_sends_once(still):
+    page = still(f"{START}&zones.classes=%22%22")
+    put(page, "zones.off_level", 255)
+    assert page.evaluate("foveate.config.zones.off_level") == 255
+    fields = "[...document.querySelectorAll('[data-key=\"zones.off_level\"] input')].map(({ value, max }) => [value, max])"
+    assert page.evaluate(fields) == [["255", "255"]] * 2
 
 
 @pytest.mark.parametrize("change", ["frame.pixel_bits=5", 'render.irrelevant="hold"'])

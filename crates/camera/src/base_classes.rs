@@ -71,7 +71,7 @@ impl BaseClasses {
                 value: format!("{} rows of {across} classes", rows.len()),
                 valid: format!(
                     "{} rows of {} classes (one for each region), or {height} rows of {width} (one \
-                     for each pixel)",
+                     for each pixel); an image `zones.map` has these classes as its pixels",
                     grid.1, grid.0
                 ),
             })

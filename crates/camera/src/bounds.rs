@@ -45,6 +45,9 @@ impl Camera {
             bounds.push(("periphery.blocks".to_owned(), KeyBound::OneOf(blocks)));
             let level = KeyBound::whole_maximum(largest_level(max, false));
             bounds.push(("periphery.level".to_owned(), level));
+            if self.zones().is_some() {
+                bounds.push(("zones.off_level".to_owned(), KeyBound::whole_maximum(max)));
+            }
         }
         let features = self.features().iter().zip(&self.config().spatial);
         for (index, (feature, entry)) in features.enumerate() {
@@ -102,6 +105,7 @@ mod tests {
             vec![ALL, "region.size=6", "render.irrelevant=\"mean\"", "frame.pixel_bits=3"],
             vec![ALL, "region.size=5", "frame.pixel_bits=12", "temporal.min_count=0"],
             vec!["spatial=[{feature=\"corner\",min_score=0}]", "frame.pixel_bits=1"],
+            vec!["zones={}", "render.irrelevant=\"mean\"", "frame.pixel_bits=3"],
             vec![SEGMENT, "region.size=3"],
             vec![SEGMENT, "spatial.0.mean_fraction_bits=2", "spatial.0.level=127"],
             vec![SEGMENT, "spatial.0.mean_fraction_bits=1", "frame.pixel_bits=1"],
@@ -143,6 +147,6 @@ mod tests {
                 keys += 1;
             }
         }
-        assert_eq!(keys, 4 + 18 + 18 + 16 + 4 + 5 * 5 + 4);
+        assert_eq!(keys, 4 + 18 + 18 + 16 + 4 + 7 + 5 * 5 + 4);
     }
 }

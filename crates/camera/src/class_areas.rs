@@ -3,7 +3,7 @@
 //! that follows from them.
 
 use crate::base_classes::BaseClasses;
-use crate::{AreaConfig, CameraConfig, ConfigError, RegionClass};
+use crate::{AreaConfig, CameraConfig, ConfigError, MAX_SIDE, RegionClass};
 
 impl AreaConfig {
     /// Adds the ranges of pixels of row `y` that belong to the area.
@@ -52,10 +52,12 @@ pub(crate) fn check_areas(
     areas: &[AreaConfig],
     (width, height): (u32, u32),
 ) -> Result<(), ConfigError> {
-    let is_sized = config.frame.has_size();
+    // Areas of a frame whose size is not known yet must lie within the largest frame.
+    let (width, height) =
+        if config.frame.has_size() { (width, height) } else { (MAX_SIDE, MAX_SIDE) };
     for (index, area) in areas.iter().enumerate() {
         let key = |name| format!("zones.areas[{index}].{name}");
-        let reaches = |x: u64, y: u64| is_sized && (x > width.into() || y > height.into());
+        let reaches = |x: u64, y: u64| x > width.into() || y > height.into();
         match (&area.rectangle, &area.polygon) {
             (Some(rectangle), None) => {
                 let [left, top, across, down] = rectangle.map(u64::from);

@@ -74,6 +74,9 @@ impl CameraConfig {
     }
 }
 
+/// Default width and height of a frame in pixels.
+const DEFAULT_SIDE: u32 = 224;
+
 /// The table `[frame]`: size in pixels and bits per pixel.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
@@ -95,6 +98,12 @@ impl FrameConfig {
     /// known yet.
     pub(crate) fn has_size(&self) -> bool {
         self.width.is_some() && self.height.is_some()
+    }
+
+    /// Returns the width and the height in pixels, 224 for one that is left out.
+    #[must_use]
+    pub fn size_or_default(&self) -> (u32, u32) {
+        (self.width.unwrap_or(DEFAULT_SIDE), self.height.unwrap_or(DEFAULT_SIDE))
     }
 }
 

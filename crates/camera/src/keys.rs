@@ -170,6 +170,11 @@ fn unknown_key_error(
     ConfigError::UnknownKey { key: shown.to_owned(), nearest }
 }
 
+/// Returns true for the dotted key of a list of tables, such as `zones.areas`.
+pub(crate) fn is_array_of_tables(key: &str) -> bool {
+    ARRAYS_OF_TABLES.contains(&key)
+}
+
 /// Returns a high similarity for keys of the same name in different tables, else 0.
 fn leaf_similarity(a: &str, b: &str) -> f64 {
     let leaf = |key: &str| key.rsplit('.').next().map(str::to_owned);

@@ -224,15 +224,22 @@ fn override_target<'a>(table: &'a mut Table, steps: &[&str]) -> Result<&'a mut V
         _ => Value::Table(Table::new()),
     });
     for (depth, step) in rest.iter().enumerate() {
+        let above = steps[..=depth].join(".");
+        if matches!(here, Value::Table(inner) if inner.is_empty())
+            && keys::is_array_of_tables(&above)
+        {
+            return Err(format!(
+                "`{above}` has no entries yet; give the whole list, {above}=[{{..}}]"
+            ));
+        }
         here = match here {
             Value::Table(inner) => inner.entry(*step).or_insert_with(|| Value::Table(Table::new())),
             Value::Array(items) => {
                 let count = items.len();
                 let index = step.parse::<usize>().ok();
                 index.and_then(|index| items.get_mut(index)).ok_or_else(|| {
-                    let array = steps[..=depth].join(".");
                     format!(
-                        "`{step}` is not an index into `{array}`, which has {count} entries, \
+                        "`{step}` is not an index into `{above}`, which has {count} entries, \
                          numbered from 0"
                     )
                 })?

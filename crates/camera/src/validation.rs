@@ -10,8 +10,6 @@ use crate::{
 };
 use crate::{MAX_SIDE, PIXEL_BITS, REGION_SIZES, check_range};
 
-/// Default width and height of a frame in pixels.
-const DEFAULT_SIDE: u32 = 224;
 /// Largest number of regions of a frame: that of the largest frame with regions of 8x8 pixels. The
 /// limit keeps the state that a model stores per region within memory.
 const MAX_REGIONS: u32 = 1 << 22;
@@ -30,8 +28,7 @@ impl CameraConfig {
     /// # Errors
     /// Returns the errors of [`CameraConfig::validate`].
     pub fn validate_up_to(&self, max_side: u32) -> Result<Camera, ConfigError> {
-        let width = self.frame.width.unwrap_or(DEFAULT_SIDE);
-        let height = self.frame.height.unwrap_or(DEFAULT_SIDE);
+        let (width, height) = self.frame.size_or_default();
         check_range("frame.width", width, 1..=max_side, "")?;
         check_range("frame.height", height, 1..=max_side, "")?;
         check_range("frame.pixel_bits", self.frame.pixel_bits, PIXEL_BITS, "")?;

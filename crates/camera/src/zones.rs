@@ -55,13 +55,22 @@ impl Zones {
             let entry = with_keen_thresholds(entry, index.map(|index| &keen.spatial[index]));
             let path = format!("zones.keen.spatial[{}]", index.unwrap_or_default());
             let n = u64::from(config.region.size).pow(2);
-            SpatialFeature::resolve(&entry, &path, n, config.frame.pixel_bits)
+            let has_own_level = index.is_none_or(|index| keen.spatial[index].level.is_some());
+            let resolved = SpatialFeature::resolve(&entry, &path, n, config.frame.pixel_bits);
+            resolved.map_err(|error| match has_own_level {
+                true => error,
+                false => naming_inherited_level(error, "spatial.level"),
+            })
         };
         let features = config.spatial.iter().map(resolve).collect::<Result<_, _>>()?;
         let min_count = keen.temporal.min_count.unwrap_or(config.temporal.min_count);
         let own_level = config.temporal.level_or_default(config.frame.pixel_bits);
         let temporal_level = keen.temporal.level.unwrap_or(own_level);
-        check_temporal_thresholds(config, "zones.keen.temporal", temporal_level, min_count)?;
+        check_temporal_thresholds(config, "zones.keen.temporal", temporal_level, min_count)
+            .map_err(|error| match keen.temporal.level {
+                None => naming_inherited_level(error, "temporal.level"),
+                Some(_) => error,
+            })?;
         let pixel_max = (1 << config.frame.pixel_bits) - 1;
         let levels = [
             ("zones.keen.periphery.level", keen.periphery.level, largest_level(pixel_max, false)),
@@ -80,6 +89,20 @@ impl Zones {
             off_level: level(zones.off_level),
             classes: classes.into(),
         })
+    }
+}
+
+/// Adds to the error of a level of keen regions which key it comes from, because the keen key is left
+/// out.
+fn naming_inherited_level(error: ConfigError, own_key: &str) -> ConfigError {
+    match error {
+        ConfigError::Range { key, value, valid } if key.ends_with(".level") => {
+            let valid = format!(
+                "{valid}; keen regions have it from `{own_key}`, give them a level of their own"
+            );
+            ConfigError::Range { key, value, valid }
+        }
+        other => other,
     }
 }
 

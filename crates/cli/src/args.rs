@@ -53,7 +53,7 @@ pub(crate) use explain::ExplainArgs;
 pub(crate) use explore::ExploreArgs;
 pub(crate) use fit::FitArgs;
 pub(crate) use infer::InferArgs;
-pub(crate) use input::warn_about_inputs;
+pub(crate) use input::{refuse_inputs_within, refuse_several_clips, warn_about_inputs};
 pub(crate) use link::LinkArgs;
 pub(crate) use live::LiveArgs;
 pub(crate) use outputs::OutputArgs;
@@ -120,23 +120,20 @@ impl DesignArgs {
         let text = self.text()?;
         let mut config = DesignConfig::from_toml_with(&text, &self.overrides)
             .map_err(|error| self.config_error(&text, error))?;
-        read_class_map(&mut config.camera, &self.map_folder())?;
+        read_class_map(&mut config.camera, &map_folder(self.config.as_deref(), &self.overrides))?;
         Ok(config)
     }
 
-    /// Returns the folder of a relative path in `zones.map`: that of the file, or the working folder
-    /// for a path in `--set`.
-    fn map_folder(&self) -> PathBuf {
-        let mut keys = self.overrides.iter().filter_map(|one| Some(one.split_once('=')?.0.trim()));
-        let is_overridden = keys.any(|key| key == "zones" || key == "zones.map");
-        let file = self.config.as_deref().filter(|_| !is_overridden);
-        file.and_then(Path::parent).unwrap_or(Path::new("")).to_owned()
-    }
-
-    /// Returns the validated design.
+    /// Returns the validated design. If the frame has no size, it is that of the paper, and classes
+    /// of regions must fit it.
     pub(crate) fn design(&self) -> Result<Design, CliError> {
         let config = self.config()?;
-        config.validate().or_else(|error| Err(self.config_error(&self.text()?, error)))
+        let (width, height) = config.camera.frame.size_or_default();
+        let design = match &config.camera.zones {
+            Some(_) => config.validate_for_frames(width, height),
+            None => config.validate(),
+        };
+        design.or_else(|error| Err(self.config_error(&self.text()?, error)))
     }
 
     /// Returns the validated design for frames of `width` x `height` pixels.
@@ -159,10 +156,23 @@ impl DesignArgs {
     /// Returns the error for the user. It names the file if the configuration is wrong without the
     /// changes of `--set`, too.
     fn config_error(&self, text: &str, error: ConfigError) -> CliError {
-        let alone = DesignConfig::from_toml(text).and_then(|config| config.validate());
+        let alone = DesignConfig::from_toml(text).and_then(|mut config| {
+            // The image of a map has been read, so the fault is not in it.
+            config.camera.zones.iter_mut().for_each(|zones| zones.map = None);
+            config.validate()
+        });
         let file = self.config.as_deref().filter(|_| alone.is_err()).map(named);
         CliError::Config { file, error }
     }
+}
+
+/// Returns the folder of a relative path in `zones.map`: that of the file, or the working folder for
+/// a path in `--set`.
+pub(crate) fn map_folder(file: Option<&Path>, overrides: &[String]) -> PathBuf {
+    let mut keys = overrides.iter().filter_map(|one| Some(one.split_once('=')?.0.trim()));
+    let is_overridden = keys.any(|key| key == "zones" || key == "zones.map");
+    let file = file.filter(|_| !is_overridden);
+    file.and_then(Path::parent).unwrap_or(Path::new("")).to_owned()
 }
 
 /// Returns the name of a configuration file in messages.

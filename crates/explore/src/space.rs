@@ -178,7 +178,10 @@ fn visit_values(above: &str, table: &Table, see: &mut impl FnMut(String, &Value)
     for (name, value) in table {
         let key = if above.is_empty() { name.clone() } else { format!("{above}.{name}") };
         match value {
-            Value::Table(inner) => visit_values(&key, inner, see),
+            // Zones without keys are zones, too.
+            Value::Table(inner) if !(inner.is_empty() && key == "zones") => {
+                visit_values(&key, inner, see);
+            }
             value => see(key, value),
         }
     }

@@ -5,9 +5,10 @@
 use std::path::Path;
 
 use foveate_camera::{CameraConfig, RegionClass};
+use image::{ImageBuffer, Pixel, Primitive, Rgb};
 
 use crate::FootageError;
-use crate::picture::read_rgb;
+use crate::picture::read_image;
 
 /// Replaces the image of `zones.map` in a configuration by the classes of its pixels. A relative
 /// path is relative to `folder`. Without such an image nothing happens.
@@ -28,28 +29,53 @@ pub fn read_class_map(config: &mut CameraConfig, folder: &Path) -> Result<(), Fo
 
 /// Returns the codes of the classes of an image, a string of digits for each row.
 fn class_rows(path: &Path) -> Result<Vec<String>, FootageError> {
-    let image = read_rgb(path)?;
-    let digit = |(x, y, pixel): (u32, u32, &image::Rgb<u8>)| {
-        class_of_colour(pixel.0).map(|class| (y, class.digit())).ok_or_else(|| {
-            let [red, green, blue] = pixel.0;
-            FootageError::ClassColour { path: path.to_owned(), x, y, red, green, blue }
-        })
-    };
+    let image = read_image(path)?;
+    match image.color().bytes_per_pixel() > image.color().channel_count() {
+        true => rows_of_pixels(path, &image.into_rgb16(), class_of_deep_colour),
+        false => rows_of_pixels(path, &image.into_rgb8(), class_of_colour),
+    }
+}
+
+/// Returns the digits of an image whose colours have classes by `class_of`.
+fn rows_of_pixels<T: Primitive + Into<u16>>(
+    path: &Path,
+    image: &ImageBuffer<Rgb<T>, Vec<T>>,
+    class_of: fn([T; 3]) -> Option<RegionClass>,
+) -> Result<Vec<String>, FootageError>
+where
+    Rgb<T>: Pixel<Subpixel = T>,
+{
     let mut rows = vec![String::new(); image.height() as usize];
-    for pixel in image.enumerate_pixels() {
-        let (y, digit) = digit(pixel)?;
-        rows[y as usize].push(digit);
+    for (x, y, pixel) in image.enumerate_pixels() {
+        let class = class_of(pixel.0).ok_or_else(|| {
+            let [red, green, blue] = pixel.0.map(Into::into);
+            FootageError::ClassColour { path: path.to_owned(), x, y, red, green, blue }
+        })?;
+        rows[y as usize].push(class.digit());
     }
     Ok(rows)
 }
 
-/// Returns the class of a colour, or `None` if the colour is no class.
+/// Returns the class of a colour of 8 bits, or `None` if the colour is no class. The grey levels 1
+/// and 2 of an image of 2 bits are 85 and 170.
 fn class_of_colour(colour: [u8; 3]) -> Option<RegionClass> {
     match colour {
         [0, 0, 0] => Some(RegionClass::Normal),
-        [255, 0, 0] | [1, 1, 1] => Some(RegionClass::Off),
-        [0, 255, 0] | [2, 2, 2] => Some(RegionClass::Keen),
+        [255, 0, 0] | [1, 1, 1] | [85, 85, 85] => Some(RegionClass::Off),
+        [0, 255, 0] | [2, 2, 2] | [170, 170, 170] => Some(RegionClass::Keen),
         [255, 255, 255] | [3, 3, 3] => Some(RegionClass::Always),
+        _ => None,
+    }
+}
+
+/// Returns the class of a colour of 16 bits, or `None` if the colour is no class.
+fn class_of_deep_colour(colour: [u16; 3]) -> Option<RegionClass> {
+    const MAX: u16 = u16::MAX;
+    match colour {
+        [0, 0, 0] => Some(RegionClass::Normal),
+        [MAX, 0, 0] | [1, 1, 1] => Some(RegionClass::Off),
+        [0, MAX, 0] | [2, 2, 2] => Some(RegionClass::Keen),
+        [MAX, MAX, MAX] | [3, 3, 3] => Some(RegionClass::Always),
         _ => None,
     }
 }
@@ -58,7 +84,7 @@ fn class_of_colour(colour: [u8; 3]) -> Option<RegionClass> {
 mod tests {
     use super::*;
     use foveate_camera::ZonesConfig;
-    use image::{GrayImage, Luma, Rgb, RgbImage};
+    use image::{GrayImage, Luma, RgbImage};
 
     fn config(map: &str) -> CameraConfig {
         let zones = ZonesConfig { map: Some(map.to_owned()), ..ZonesConfig::default() };
@@ -73,7 +99,17 @@ mod tests {
         image.save(folder.path().join("colours.png")).unwrap();
         let image = GrayImage::from_fn(4, 1, |x, _| Luma([u8::try_from(x).unwrap()]));
         image.save(folder.path().join("grey.png")).unwrap();
-        for (name, rows) in [("colours.png", &["01", "23"][..]), ("grey.png", &["0123"])] {
+        let deep = [0, 1, 2, 3, u16::MAX].map(|level| [level; 3]);
+        let deep = [deep.as_slice(), &[[u16::MAX, 0, 0], [0, u16::MAX, 0]]].concat();
+        let image = ImageBuffer::from_fn(7, 1, |x, _| Rgb(deep[x as usize]));
+        image.save(folder.path().join("deep.png")).unwrap();
+        std::fs::write(folder.path().join("small.pgm"), "P2 4 1 3\n0 1 2 3\n").unwrap();
+        for (name, rows) in [
+            ("colours.png", &["01", "23"][..]),
+            ("grey.png", &["0123"]),
+            ("deep.png", &["0123312"]),
+            ("small.pgm", &["0123"]),
+        ] {
             let mut config = config(name);
             read_class_map(&mut config, folder.path()).unwrap();
             let zones = config.zones.unwrap();
@@ -100,6 +136,10 @@ mod tests {
         image.save(folder.path().join("blue.png")).unwrap();
         let error = read_class_map(&mut config("blue.png"), folder.path()).unwrap_err().to_string();
         assert!(error.contains("pixel (3, 2)") && error.contains("(0, 0, 255)"), "{error}");
+        let image = ImageBuffer::from_pixel(1, 1, Luma([256_u16]));
+        image.save(folder.path().join("deep.png")).unwrap();
+        let error = read_class_map(&mut config("deep.png"), folder.path()).unwrap_err().to_string();
+        assert!(error.contains("(256, 256, 256)"), "{error}");
         let error = read_class_map(&mut config("gone.png"), folder.path()).unwrap_err().to_string();
         assert!(error.contains("gone.png"), "{error}");
     }

@@ -42,7 +42,8 @@ pub enum FootageError {
     /// An image that is a map of zones has a colour that is no class.
     #[error(
         "the map `{}`: pixel ({x}, {y}) is ({red}, {green}, {blue}), which is no class; black or 0 is normal, red \
-         (255, 0, 0) or 1 is off, green (0, 255, 0) or 2 is keen, white or 3 is always",
+         (255, 0, 0) or 1 is off, green (0, 255, 0) or 2 is keen, white or 3 is always; in an image of 16 bits, 65535 takes \
+         the place of 255",
         path.display()
     )]
     ClassColour {
@@ -52,12 +53,12 @@ pub enum FootageError {
         x: u32,
         /// The row of the pixel.
         y: u32,
-        /// The red part of the pixel, 0..=255.
-        red: u8,
-        /// The green part of the pixel, 0..=255.
-        green: u8,
-        /// The blue part of the pixel, 0..=255.
-        blue: u8,
+        /// The red part of the pixel, 0..=255, or 0..=65535 in an image of 16 bits.
+        red: u16,
+        /// The green part of the pixel, in the same range.
+        green: u16,
+        /// The blue part of the pixel, in the same range.
+        blue: u16,
     },
     /// The input is a URL.
     #[error(

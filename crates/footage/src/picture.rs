@@ -22,7 +22,7 @@ use std::path::Path;
 
 use foveate_frame::Frame;
 use image::error::{ImageError, LimitErrorKind};
-use image::{DynamicImage, ImageFormat, ImageReader, Limits, RgbImage};
+use image::{DynamicImage, ImageFormat, ImageReader, Limits};
 
 pub(crate) use self::conversion::ImageConversion;
 use self::damage::PictureFault;
@@ -65,9 +65,9 @@ pub(crate) fn decode_converted(
     })
 }
 
-/// Reads an image file as colours of 8 bits.
-pub(crate) fn read_rgb(path: &Path) -> Result<RgbImage, FootageError> {
-    decode_image(&bytes_of(path)?, path).map(DynamicImage::into_rgb8)
+/// Reads an image file with the depth that it has.
+pub(crate) fn read_image(path: &Path) -> Result<DynamicImage, FootageError> {
+    decode_image(&bytes_of(path)?, path)
 }
 
 /// Decodes the bytes of an image, and checks what the decoder ignores.

@@ -234,6 +234,8 @@ fn number_duplicates(clips: &mut [BatchClip]) {
         clip.output_folder.ancestors().skip(1).map(Path::to_owned).collect::<Vec<_>>()
     };
     let mut taken: HashSet<PathBuf> = clips.iter().flat_map(above).collect();
+    // A batch writes a file of this name beside the folders of its clips.
+    taken.insert(PathBuf::from("summary.json"));
     for clip in clips {
         let first = clip.output_folder.clone();
         let mut number = 2;

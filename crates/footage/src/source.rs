@@ -11,7 +11,7 @@ pub(crate) mod timestamped_feed;
 
 use foveate_frame::ByteFrame;
 
-use crate::{FootageError, FrameRate, LumaRange};
+use crate::{CropRect, FootageError, FrameRate, LumaRange};
 use set_form::SetForm;
 
 /// A frame with its name and time.
@@ -95,6 +95,11 @@ pub trait FrameSource: Send {
     /// Returns the kind of the files and of the labels of a set.
     fn form(&self) -> SetForm {
         SetForm::default()
+    }
+
+    /// Returns the part of each frame that is kept, if the frames are cropped.
+    fn crop(&self) -> Option<CropRect> {
+        None
     }
 
     /// Returns the range of luma, if the input is video.

@@ -71,7 +71,7 @@ impl RunClips {
         let inputs = player.inputs().iter().map(PathBuf::from).collect();
         let clips = vec![ComparedInput { name: player.inputs().join(", "), inputs }];
         let luma = player.luma().unwrap_or_default();
-        let options = InputOptions { luma, ..InputOptions::default() };
+        let options = InputOptions { luma, crop: player.crop(), ..InputOptions::default() };
         let (camera, opened) = (CameraConfig::default(), Mutex::new(Some(player)));
         Self { clips, camera, options, opened, boxes: Vec::new() }.with_boxes(boxes)
     }

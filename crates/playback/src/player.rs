@@ -5,7 +5,7 @@ use std::path::Path;
 
 use foveate_camera::CameraConfig;
 use foveate_footage::{
-    FootageError, FrameSource, InputOptions, LumaRange, SetForm, SourceKind, open,
+    CropRect, FootageError, FrameSource, InputOptions, LumaRange, SetForm, SourceKind, open,
 };
 use foveate_toolchain::Interrupt;
 
@@ -21,6 +21,7 @@ pub struct ClipPlayer {
     kind: SourceKind,
     form: SetForm,
     luma: Option<LumaRange>,
+    crop: Option<CropRect>,
     /// The interrupt that the source was opened with, if the player opened it.
     interrupt: Interrupt,
     limit: u64,
@@ -89,6 +90,12 @@ impl ClipPlayer {
         &self.form
     }
 
+    /// Returns the part of each frame that is kept, if the frames are cropped.
+    #[must_use]
+    pub fn crop(&self) -> Option<CropRect> {
+        self.crop
+    }
+
     /// Returns the range of luma, if the input is video.
     #[must_use]
     pub fn luma(&self) -> Option<LumaRange> {
@@ -151,6 +158,7 @@ impl From<Box<dyn FrameSource>> for ClipPlayer {
             kind: source.kind(),
             form: source.form(),
             luma: source.luma(),
+            crop: source.crop(),
             interrupt: Interrupt::default(),
             limit: u64::MAX,
             state: PlayerState::Opened(source),

@@ -38,9 +38,9 @@ pub(crate) struct AnalyzeArgs {
     /// EVT 3.0, or as .aedat4; plain or gzipped
     #[arg(long, value_name = "FILE")]
     pub(crate) sensor_events: Option<PathBuf>,
-    /// For `sensor`: the time of the first frame on the clock of the events, in microseconds
-    #[arg(long, value_name = "T_US", default_value_t = 0)]
-    pub(crate) sensor_start: u64,
+    /// For `sensor`: the time of the first frame on the clock of the events, in microseconds (0)
+    #[arg(long, value_name = "T_US", requires = "sensor_events")]
+    pub(crate) sensor_start: Option<u64>,
     /// Ground-truth boxes for `recall`: a gt.txt of MOT, JSON of COCO, CSV with the columns file,
     /// x0, y0, x1, y1, or a folder of YOLO files. Give one for all inputs, or one for each input in
     /// their order. A path that does not exist is looked for in the folder of every clip, and in

@@ -46,10 +46,10 @@ pub(crate) struct ExploreArgs {
     #[arg(long, value_name = "UNIT", conflicts_with_all = ["list", "print", "markdown", "liberty"])]
     pub(crate) only: Option<String>,
     /// List the spaces that come with the program
-    #[arg(long, conflicts_with_all = ["space", "print", "liberty"])]
+    #[arg(long, conflicts_with_all = ["space", "print", "json", "markdown", "liberty"])]
     pub(crate) list: bool,
     /// Print the file of a space that comes with the program
-    #[arg(long, requires = "space", conflicts_with = "liberty")]
+    #[arg(long, requires = "space", conflicts_with_all = ["json", "markdown", "liberty"])]
     pub(crate) print: bool,
     /// Print all points as JSON; with --only, print the unit
     #[arg(long, conflicts_with = "markdown")]

@@ -5,11 +5,13 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
 use foveate_footage::{
-    BayerPattern, CropRect, FrameRate, FrameSelection, ImageRelation, InputOptions, LumaRange,
-    MAX_SIDE, Orientation, RawLayout, TimestampUnit, TimestampsFile, input_warnings, parse_time,
+    BayerPattern, ClipPlan, CropRect, FrameRate, FrameSelection, ImageRelation, InputOptions,
+    LumaRange, MAX_SIDE, Orientation, RawLayout, TimestampUnit, TimestampsFile, input_warnings,
+    parse_time, plan,
 };
 
 use super::at_least_one;
+use crate::error::CliError;
 use crate::{interrupt, notice};
 
 /// The options that say how inputs are read.
@@ -19,7 +21,8 @@ pub(crate) struct InputArgs {
     /// Take at most this many frames per second, chosen by their times; no frame is repeated
     #[arg(long, value_name = "RATE", value_parser = FrameRate::parse)]
     pub(crate) input_fps: Option<FrameRate>,
-    /// Take at most this many frames of every clip; a scene has exactly this many
+    /// Take at most this many frames of every clip. A scene is made with exactly this many, of which
+    /// --start, --end and --input-fps choose
     #[arg(long, visible_alias = "frames", value_name = "N", value_parser = at_least_one())]
     pub(crate) max_frames: Option<u32>,
     /// Frame rate of images and of raw video, which have no times of their own
@@ -100,6 +103,44 @@ pub(crate) enum ImagesChoice {
     Clip,
     Set,
     CifarSheet,
+}
+
+/// Refuses inputs that are several clips, for a command that takes one.
+pub(crate) fn refuse_several_clips<P: AsRef<Path>>(
+    inputs: &[P],
+    options: &InputOptions,
+) -> Result<(), CliError> {
+    let ClipPlan::Batch(clips) = plan(inputs, options)? else { return Ok(()) };
+    let first = clips[0].inputs[0].display();
+    Err(CliError::Usage(format!(
+        "the inputs are {} clips, and this command takes one; name one of them, for example `{first}`",
+        clips.len()
+    )))
+}
+
+/// Refuses inputs in the folder that `--force` would replace, because they would be deleted.
+pub(crate) fn refuse_inputs_within<P: AsRef<Path>>(
+    folder: &Path,
+    inputs: &[P],
+) -> Result<(), CliError> {
+    let Ok(folder) = folder.canonicalize() else { return Ok(()) };
+    let is_within = |input: &Path| {
+        // The last part of an input may be a pattern.
+        let own = input.canonicalize().or_else(|_| match input.parent() {
+            Some(above) if !above.as_os_str().is_empty() => above.canonicalize(),
+            _ => Err(std::io::ErrorKind::NotFound.into()),
+        });
+        own.is_ok_and(|own| own.starts_with(&folder))
+    };
+    match inputs.iter().map(AsRef::as_ref).find(|input| is_within(input)) {
+        None => Ok(()),
+        Some(input) => Err(CliError::Usage(format!(
+            "`{}` lies in the folder `{}`, which --force would replace with everything in it; choose \
+             another folder for --output",
+            input.display(),
+            folder.display()
+        ))),
+    }
 }
 
 /// Warns the user about inputs that can be read, but perhaps not as they were meant.

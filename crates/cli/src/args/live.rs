@@ -17,7 +17,8 @@ use crate::error::CliError;
 #[command(after_help = "Examples: foveate live
           foveate live street.mp4 --preset fovea
           foveate live rtsp://user:password@camera/stream --resize 640x360
-          foveate live --page foveate.html")]
+          foveate live --page foveate.html",
+    mut_group("InputArgs", |group| group.requires("inputs")))]
 pub(crate) struct LiveArgs {
     /// Inputs that this machine decodes, as for `foveate simulate`. Without inputs, the page offers
     /// the browser's camera, files that the browser decodes, and built-in scenes
@@ -31,7 +32,7 @@ pub(crate) struct LiveArgs {
     #[arg(long, value_name = "IP:PORT", default_value = "127.0.0.1:0")]
     pub(crate) address: SocketAddr,
     /// Write the page as one file that works without a server, and exit
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["inputs", "address", "config", "preset", "overrides"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["inputs", "InputArgs", "address", "config", "preset", "overrides"])]
     pub(crate) page: Option<PathBuf>,
 }
 

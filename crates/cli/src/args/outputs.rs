@@ -85,7 +85,7 @@ pub(crate) enum EventFormat {
 
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
 pub(crate) enum EventFilter {
-    /// Only active regions
+    /// Only regions that send pixels or means
     Active,
 }
 

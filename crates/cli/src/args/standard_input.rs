@@ -5,7 +5,10 @@ use clap::error::ErrorKind;
 use clap::{ArgMatches, Command, Error};
 
 /// The arguments of frames and packets, which are read from standard input if they are `-`.
-const STREAMS: [&str; 2] = ["inputs", "stream"];
+const STREAMS: [&str; 4] = ["inputs", "input", "stream", "clip"];
+
+/// The arguments of a configuration.
+const CONFIGS: [&str; 2] = ["config", "file"];
 
 /// Refuses `--config -` beside frames or packets from standard input, because the configuration
 /// would leave nothing for them.
@@ -18,7 +21,8 @@ pub(crate) fn refuse_second_reader(
         let mut values = given.try_get_raw(id).ok().flatten().into_iter().flatten();
         values.any(|value| value == "-")
     };
-    if !is_standard_input("config") || !STREAMS.into_iter().any(is_standard_input) {
+    let any_is = |ids: &[&str]| ids.iter().any(|id| is_standard_input(id));
+    if !any_is(&CONFIGS) || !any_is(&STREAMS) {
         return Ok(());
     }
     let command = command.find_subcommand_mut(name).expect("this subcommand was parsed");

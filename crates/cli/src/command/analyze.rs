@@ -5,7 +5,7 @@ use foveate_footage::ImageRelation;
 use foveate_staging::StagedFolder;
 use foveate_studies::{STUDY_FOLDER, Study, StudyReport, StudyRequest, analyze};
 
-use crate::args::{AnalyzeArgs, warn_about_inputs};
+use crate::args::{AnalyzeArgs, refuse_inputs_within, warn_about_inputs};
 use crate::error::CliError;
 use crate::output;
 use crate::progress::RunTerminal;
@@ -17,7 +17,14 @@ pub(crate) fn run(args: &AnalyzeArgs) -> Result<(), CliError> {
             "--boxes is only for the study recall, not for {study}; leave it out"
         )));
     }
+    if args.study.0 != Study::Sensor && args.sensor_events.is_some() {
+        let study = args.study.0.name();
+        return Err(CliError::Usage(format!(
+            "--sensor-events is only for the study sensor, not for {study}; leave it out"
+        )));
+    }
     StagedFolder::check(&args.output, STUDY_FOLDER, args.force)?;
+    refuse_inputs_within(&args.output, &args.inputs)?;
     let config = args.design.config()?;
     let input = args.input.options(ImageRelation::Clip);
     let request = StudyRequest {
@@ -26,7 +33,7 @@ pub(crate) fn run(args: &AnalyzeArgs) -> Result<(), CliError> {
         input: &input,
         config: &config,
         sensor_events: args.sensor_events.as_deref(),
-        sensor_start_us: args.sensor_start,
+        sensor_start_us: args.sensor_start.unwrap_or(0),
         boxes: &args.boxes,
     };
     warn_about_inputs(&args.inputs, &input);

@@ -6,10 +6,11 @@ use std::path::Path;
 
 use foveate_boards::{Board, BoardProject, BuildResult, PROJECT_FOLDER, build, write_project};
 use foveate_design::{DesignConfig, Preset};
+use foveate_footage::read_class_map;
 use foveate_staging::StagedFolder;
 use serde::Serialize;
 
-use crate::args::BuildArgs;
+use crate::args::{BuildArgs, map_folder};
 use crate::error::CliError;
 use crate::progress::Progress;
 use crate::{interrupt, output};
@@ -80,7 +81,9 @@ fn configuration(board: &Board, args: &BuildArgs) -> Result<DesignConfig, CliErr
         (None, Some(name)) => Preset::find(name)?.toml.to_owned(),
         (None, None) => board.config()?.to_toml(),
     };
-    Ok(DesignConfig::from_toml_with(&text, &args.overrides)?)
+    let mut config = DesignConfig::from_toml_with(&text, &args.overrides)?;
+    read_class_map(&mut config.camera, &map_folder(args.config.as_deref(), &args.overrides))?;
+    Ok(config)
 }
 
 fn build_bitstream(

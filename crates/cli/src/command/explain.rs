@@ -5,13 +5,14 @@ use foveate_footage::ImageRelation;
 use foveate_playback::ClipPlayer;
 use foveate_simulator::explain_region;
 
-use crate::args::{ExplainArgs, warn_about_inputs};
+use crate::args::{ExplainArgs, refuse_several_clips, warn_about_inputs};
 use crate::error::CliError;
 use crate::output;
 
 pub(crate) fn run(args: &ExplainArgs) -> Result<(), CliError> {
     let config = args.design.config()?;
     let options = args.input.options(ImageRelation::Clip);
+    refuse_several_clips(&args.inputs, &options)?;
     let player = ClipPlayer::open(&args.inputs, &config.camera, &options)?;
     warn_about_inputs(&args.inputs, &options);
     let explanation = explain_region(&config, player, args.frame, args.region)?;

@@ -87,7 +87,7 @@ fn print_exploration(
 /// Reads the file. If it does not exist, the built-in space of that name is returned.
 fn read_space(file: &Path) -> Result<String, CliError> {
     let built_in = BUILT_IN_SPACES.iter().find(|space| Path::new(space.name) == file);
-    match built_in.filter(|_| !file.exists()) {
+    match built_in.filter(|_| !file.is_file()) {
         Some(space) => Ok(space.toml.to_owned()),
         None if file.exists() => {
             foveate_reading::read_settings(file).map_err(CliError::io("read", file))

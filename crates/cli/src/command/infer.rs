@@ -16,7 +16,7 @@ use foveate_staging::StagedFolder;
 use indicatif::DecimalBytes;
 
 use crate::agreement_text::{grey_levels, interval_text, noise_text};
-use crate::args::{InferArgs, warn_about_inputs};
+use crate::args::{InferArgs, refuse_inputs_within, warn_about_inputs};
 use crate::error::CliError;
 use crate::progress::RunTerminal;
 use crate::{notice, output};
@@ -33,6 +33,7 @@ pub(crate) fn run(args: &InferArgs, words: &[OsString]) -> Result<(), CliError> 
 
 fn run_clips(args: &InferArgs, words: &[OsString], folder: &Path) -> Result<(), CliError> {
     StagedFolder::check(folder, INFERENCE_FOLDER, args.force)?;
+    refuse_inputs_within(folder, &args.inputs)?;
     let (config, input) = (args.design.config()?, args.input.options(ImageRelation::Clip));
     warn_about_inputs(&args.inputs, &input);
     let footage = (&args.inputs[..], &args.boxes[..]);

@@ -5,13 +5,14 @@ use foveate_footage::ImageRelation;
 use foveate_link::{LINK_FOLDER, LinkRequest, compare};
 use foveate_staging::StagedFolder;
 
-use crate::args::{LinkArgs, warn_about_inputs};
+use crate::args::{LinkArgs, refuse_inputs_within, warn_about_inputs};
 use crate::error::CliError;
 use crate::progress::RunTerminal;
 use crate::{interrupt, output};
 
 pub(crate) fn run(args: &LinkArgs) -> Result<(), CliError> {
     StagedFolder::check(&args.output, LINK_FOLDER, args.force)?;
+    refuse_inputs_within(&args.output, &args.inputs)?;
     let config = args.design.config()?;
     let input = args.input.options(ImageRelation::Clip);
     let mut codecs = Vec::new();

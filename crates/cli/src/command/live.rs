@@ -4,7 +4,7 @@
 use foveate_staging::write_file;
 use foveate_view::{Player, camera_page};
 
-use crate::args::{LiveArgs, warn_about_inputs};
+use crate::args::{LiveArgs, refuse_several_clips, warn_about_inputs};
 use crate::error::CliError;
 use crate::serving::ServingCommand;
 
@@ -14,6 +14,7 @@ pub(crate) fn run(args: &LiveArgs) -> Result<(), CliError> {
     }
     let serving = ServingCommand::new()?;
     let options = args.options()?;
+    refuse_several_clips(&options.inputs, &options.input)?;
     warn_about_inputs(&options.inputs, &options.input);
     let player = Player::open(options)?;
     serving.run_until_stopped(&player.link(), || player.take_messages(), || player.frames_decoded())

@@ -12,7 +12,7 @@ use foveate_simulator::{
 };
 use foveate_staging::StagedFolder;
 
-use crate::args::{SimulateArgs, warn_about_inputs};
+use crate::args::{SimulateArgs, refuse_inputs_within, warn_about_inputs};
 use crate::error::CliError;
 use crate::output;
 use crate::progress::RunTerminal;
@@ -48,6 +48,7 @@ pub(super) struct SimulationJob<'a> {
 pub(super) fn run_job(job: &SimulationJob<'_>) -> Result<(), CliError> {
     let SimulationJob { inputs, config, input, output: folder, options, quiet, .. } = job;
     StagedFolder::check(folder, SIMULATION_FOLDER, options.overwrite)?;
+    refuse_inputs_within(folder, inputs)?;
     let plan = plan(inputs, input)?;
     warn_about_inputs(inputs, input);
     let hooks = RunTerminal::new(*quiet)?;

@@ -113,6 +113,77 @@ fn without_ffmpeg_video_ends_with_3_and_the_rest_works() {
     assert!(bare("a.y4m").status.success() && bare("scene:street").status.success());
 }
 
+/// Inputs in the folder that `--force` replaces would be deleted, so they are refused.
+#[test]
+fn inputs_in_the_output_folder_are_kept() {
+    let dir = tempfile::tempdir().unwrap();
+    let simulated = ["simulate", "scene:street", "--frames", "2", "-o", "s", "--packets"];
+    run_successfully(dir.path(), &simulated);
+    let said = "lies in the folder";
+    for args in [
+        &["decode", "s/packets.bin", "-o", "s"][..],
+        &["simulate", "s/rendered", "-o", "s"],
+        &["simulate", "s/rendered/*.png", "-o", "s"],
+        &["simulate", "s", "-o", "s"],
+    ] {
+        expect_failure(dir.path(), 2, &[args, &["--force"]].concat(), &[said, "another folder"]);
+    }
+    assert!(dir.path().join("s/packets.bin").exists());
+    run_successfully(dir.path(), &[&simulated[..], &["--force"]].concat());
+}
+
+#[test]
+fn commands_for_one_clip_refuse_several() {
+    let dir = tempfile::tempdir().unwrap();
+    for name in ["two/a", "two/b"] {
+        run_successfully(dir.path(), &["simulate", "scene:street", "--frames", "2", "-o", name]);
+    }
+    for inputs in [&["two/a/rendered", "two/b/rendered"][..], &["two"]] {
+        let explain = [&["explain"], inputs, &["--frame", "0", "--region", "0,0"]].concat();
+        expect_failure(dir.path(), 2, &explain, &["2 clips", "takes one", "two/a"]);
+    }
+}
+
+/// An option without a meaning in a call is refused, and not ignored.
+#[test]
+fn options_without_a_meaning_are_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    for (args, part) in [
+        (
+            &["analyze", "temporal", "scene:street", "-o", "a", "--sensor-events", "x"][..],
+            "--sensor-events is only for the study sensor",
+        ),
+        (
+            &["analyze", "sensor", "scene:street", "-o", "a", "--sensor-start", "5"],
+            "--sensor-events",
+        ),
+        (&["live", "--page", "p.html", "--resize", "64x64"], "INPUT"),
+        (&["explore", "--list", "--json"], "--json"),
+        (&["explore", "designs", "--print", "--markdown"], "--markdown"),
+        (&["view", "-", "--config", "-"], "exclude each other"),
+    ] {
+        let found = run_in(dir.path(), args);
+        assert!(found.code == 2 && found.stderr.contains(part), "{args:?}: {}", found.stderr);
+    }
+    // A folder does not hide a space that comes with the program.
+    fs::create_dir(dir.path().join("designs")).unwrap();
+    assert!(run_successfully(dir.path(), &["explore", "designs", "--print"]).contains("[vary]"));
+}
+
+/// A clip whose name is that of the summary of a batch gets another folder.
+#[test]
+fn a_clip_may_be_called_like_a_summary() {
+    let dir = tempfile::tempdir().unwrap();
+    for name in ["clips/summary.json", "clips/b"] {
+        fs::create_dir_all(dir.path().join(name)).unwrap();
+        let image = [b"P5 8 8 255\n".as_slice(), &[7; 64]].concat();
+        fs::write(dir.path().join(name).join("0.pgm"), image).unwrap();
+    }
+    run_successfully(dir.path(), &["simulate", "clips", "-o", "out", "--preset", "bare"]);
+    assert!(dir.path().join("out/summary.json").is_file());
+    assert!(dir.path().join("out/summary.json-2").is_dir());
+}
+
 #[test]
 fn a_folder_of_clips_is_a_batch() {
     let dir = tempfile::tempdir().unwrap();

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{expect_failure, run_successfully};
+use crate::common::{expect_failure, run_in, run_successfully};
 
 /// A map of 4 x 3 regions.
 const CODES: [u8; 12] = [1, 1, 1, 1, 0, 2, 2, 0, 0, 0, 0, 3];
@@ -64,6 +64,53 @@ fn a_map_stays_in_the_folder_of_its_file_beside_other_keys() {
     }
     check("zones.map=\"map.pgm\"", "12 always");
     check("zones={map='map.pgm'}", "12 always");
+}
+
+/// `build` reads a map as the other commands do.
+#[test]
+fn a_board_takes_a_map() {
+    let dir = tempfile::tempdir().unwrap();
+    let text = "[frame]\nwidth = 64\nheight = 48\n[hardware]\norganization = \"raster\"\ninterface = \"axi\"\n\
+                [zones]\nmap = \"map.pgm\"\n";
+    let folder = dir.path().join("designs");
+    fs::create_dir(&folder).unwrap();
+    fs::write(folder.join("camera.toml"), text).unwrap();
+    write_image(&folder.join("map.pgm"), (8, 6), |x, _| u8::from(x > 3));
+    let args = ["--board", "ulx3s", "--project", "--config", "designs/camera.toml", "-o", "out"];
+    run_successfully(dir.path(), &[&["build"], &args[..]].concat());
+    let design = fs::read_to_string(dir.path().join("out/design.toml")).unwrap();
+    assert!(design.contains("\"00001111\""), "{design}");
+}
+
+#[test]
+fn errors_name_the_key_and_the_file_that_are_wrong() {
+    let dir = tempfile::tempdir().unwrap();
+    let fails = |args: &[&str], parts: &[&str]| {
+        expect_failure(dir.path(), 2, &[&["check"], args].concat(), parts)
+    };
+    // Without a size the frame is that of the paper, and classes must fit it.
+    fails(&["--set", "zones.classes=[\"11\",\"11\"]"], &["zones.classes", "28 rows of 28"]);
+    let area = "zones.areas=[{class='off',rectangle=[200,0,30,8]}]";
+    fails(&["--set", area], &["zones.areas[0].rectangle", "224x224"]);
+    let huge = "zones.areas=[{class='off',polygon=[[0,0],[4294967295,0],[4294967295,4294967295]]}]";
+    fails(&["--set", huge], &["zones.areas[0].polygon", "[4294967295, 0]"]);
+    fails(&["--set", "zones.keen.spatial.0.level=5"], &["`zones.keen.spatial` has no entries"]);
+    let inherited = [
+        ("temporal", "zones.keen.temporal.min_count=3", "`temporal.level`"),
+        ("spatial.0", "zones.keen.spatial=[{feature='edge',min_score=3}]", "`spatial.level`"),
+    ];
+    for (table, keen, own_key) in inherited {
+        let level = if table == "temporal" { 255 } else { 1530 };
+        let minimum = if table == "temporal" { "min_count" } else { "min_score" };
+        let (level, minimum) = (format!("{table}.level={level}"), format!("{table}.{minimum}=0"));
+        let set = ["--set", &level, "--set", &minimum, "--set", keen];
+        fails(&set, &["zones.keen.", "keen regions have it from", own_key]);
+    }
+    fs::write(dir.path().join("camera.toml"), FILE).unwrap();
+    write_image(&dir.path().join("map.pgm"), (4, 3), |_, _| 0);
+    let set = ["check", "--config", "camera.toml", "--set", "temporal.level=999"];
+    let said = run_in(dir.path(), &set).stderr;
+    assert!(said.starts_with("foveate: `temporal.level` = 999"), "{said}");
 }
 
 #[test]

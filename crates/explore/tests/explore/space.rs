@@ -29,6 +29,14 @@ fn a_grid_has_every_combination_that_is_a_design() {
     assert!(configs.iter().all(|config| config.camera.frame.width == Some(64)));
 }
 
+/// An empty table `zones` makes a camera with zones, also in a space.
+#[test]
+fn zones_without_keys_are_zones() {
+    let (configs, _) = points("[design]\nzones = {}\n[vary]\nregion.size = [8, 16]\n");
+    assert_eq!(configs.len(), 2);
+    assert!(configs.iter().all(|config| config.camera.zones.is_some()));
+}
+
 /// A frame of 320x240 pixels has 1,200 regions of 8x8, and the default frame has 784.
 #[test]
 fn the_start_is_judged_with_the_size_of_the_clips() {

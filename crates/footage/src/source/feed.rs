@@ -167,7 +167,15 @@ impl AdjustedSource {
                     let own_file = self.feed.is_file_per_frame();
                     self.origin = Some(FrameOrigin { number, size, own_file });
                     if let Some(part) = self.adjustment.crop {
-                        next.frame = scaling::crop(&next.frame, part)?;
+                        match scaling::crop(&next.frame, part) {
+                            Ok(frame) => next.frame = frame,
+                            // A stream whose frames become smaller keeps the frames before.
+                            Err(error) if self.feed.is_stream() && self.frames_selected > 0 => {
+                                self.problem = Some(error.to_string());
+                                break;
+                            }
+                            Err(error) => return Err(error),
+                        }
                     }
                     if let Some((width, height)) = self.adjustment.size {
                         next.frame = scaling::resize(next.frame, width, height)?;
@@ -219,6 +227,10 @@ impl AdjustedSource {
 }
 
 impl FrameSource for AdjustedSource {
+    fn crop(&self) -> Option<CropRect> {
+        self.adjustment.crop
+    }
+
     fn luma(&self) -> Option<LumaRange> {
         self.feed.luma()
     }

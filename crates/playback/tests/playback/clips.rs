@@ -5,7 +5,8 @@ use std::fs;
 use std::path::PathBuf;
 
 use foveate_camera::CameraConfig;
-use foveate_footage::InputOptions;
+use foveate_footage::{CropRect, InputOptions, source_from_memory};
+use foveate_frame::{ByteFrame, Rect};
 use foveate_playback::testing::RecordingHooks;
 use foveate_playback::{
     ClipHalves, ClipReading, CommonFormat, PlaybackError, RunClips, RunMonitor, SilentHooks,
@@ -86,6 +87,23 @@ fn objects_are_found_by_the_numbers_of_frames() {
     let found: Vec<_> = found.map(|rects| rects.map(|rects| rects.len())).collect();
     assert_eq!(found, [None, Some(1), None]);
     assert!(clips.check_entries(0, true).is_ok() && clips.check_entries(0, false).is_err());
+}
+
+/// Boxes are those of whole frames, also if the frames of an open clip are cropped.
+#[test]
+fn boxes_of_an_open_clip_are_cropped_with_its_frames() {
+    let folder = tempfile::tempdir().unwrap();
+    let boxes = folder.path().join("gt.txt");
+    fs::write(&boxes, "1,1,9,5,4,4,1,1,1\n").unwrap();
+    let crop = Some(CropRect { size: (16, 8), origin: (8, 4) });
+    let options = InputOptions { frames: Some(1), crop, ..InputOptions::default() };
+    let whole = ByteFrame::from_bytes(32, 16, 8, vec![0; 32 * 16]).unwrap();
+    let player = source_from_memory("array", vec![whole], &options).unwrap();
+    let clips = RunClips::from_player(player.into(), &[boxes]).unwrap();
+    let mut player = clips.open(0).unwrap();
+    let frame = player.next().unwrap().unwrap();
+    let found = clips.objects(0, &frame).unwrap().unwrap();
+    assert_eq!(found, [Rect::from_corners([0.0, 0.0, 4.0, 4.0]).unwrap()]);
 }
 
 #[test]

@@ -108,7 +108,7 @@ fn an_explanation_says_why_a_summary_was_sent() {
             let sent = outcome.actions[at] == RegionAction::Summarize;
             assert_eq!(sent, !is_near);
             assert_eq!(told.action, if sent { "summarize" } else { "hold" });
-            let words = if sent { "are sent and shown" } else { "are near" };
+            let words = if sent { "are sent and shown" } else { "no mean differs" };
             assert!(told.rule.contains(words), "{}", told.rule);
             let text = told.to_string();
             assert!(text.contains("means ") && text.lines().all(|line| line.len() <= 80), "{text}");

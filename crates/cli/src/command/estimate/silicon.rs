@@ -16,7 +16,7 @@ use foveate_staging::{check_file, write_file};
 use serde::Serialize;
 
 use super::synthesis::SynthesisTools;
-use crate::args::EstimateArgs;
+use crate::args::{EstimateArgs, warn_about_inputs};
 use crate::error::CliError;
 use crate::interrupt;
 use crate::liberty::{read_library, read_macros};
@@ -92,6 +92,7 @@ fn open_clip(args: &EstimateArgs, clip: &Path, cancel: &AtomicBool) -> Result<En
         interrupt: interrupt::stop_request(),
         ..InputOptions::default()
     };
+    warn_about_inputs(&[clip], &options);
     let job = EnergyJob::open(clip, &args.design.config()?, &options, f64::from(args.fps), cancel);
     progress.finish();
     Ok(job?)
