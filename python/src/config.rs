@@ -26,22 +26,9 @@ pub(crate) fn read(
         // A dict without keys is a table, too, and makes a camera with zones.
         config.camera.zones.get_or_insert_default();
     }
-    read_class_map(&mut config.camera, &map_folder(source, sections)?).map_err(raise)?;
-    Ok(config)
-}
-
-/// Returns the folder of a relative path in `zones.map`: that of the file, or the working folder for
-/// a path among the keys.
-fn map_folder(
-    source: Option<&Bound<'_, PyAny>>,
-    sections: Option<&Bound<'_, PyDict>>,
-) -> PyResult<PathBuf> {
-    let zones = sections.map_or(Ok(None), |sections| sections.get_item("zones"))?;
-    let keys = zones.as_ref().and_then(|zones| zones.cast::<PyDict>().ok());
-    let is_overridden = keys.map_or(Ok(false), |keys| keys.contains("map"))?;
     let file: Option<PathBuf> = source.and_then(|source| source.extract().ok());
-    let folder = file.filter(|_| !is_overridden).and_then(|file| file.parent().map(Path::to_owned));
-    Ok(folder.unwrap_or_default())
+    read_class_map(&mut config.camera, file.as_deref(), &overrides).map_err(raise)?;
+    Ok(config)
 }
 
 /// Returns true if `zones` is a dict without keys.

@@ -53,7 +53,7 @@ pub(crate) use explain::ExplainArgs;
 pub(crate) use explore::ExploreArgs;
 pub(crate) use fit::FitArgs;
 pub(crate) use infer::InferArgs;
-pub(crate) use input::{refuse_inputs_within, refuse_several_clips, warn_about_inputs};
+pub(crate) use input::{check_output, refuse_several_clips, warn_about_inputs};
 pub(crate) use link::LinkArgs;
 pub(crate) use live::LiveArgs;
 pub(crate) use outputs::OutputArgs;
@@ -120,7 +120,7 @@ impl DesignArgs {
         let text = self.text()?;
         let mut config = DesignConfig::from_toml_with(&text, &self.overrides)
             .map_err(|error| self.config_error(&text, error))?;
-        read_class_map(&mut config.camera, &map_folder(self.config.as_deref(), &self.overrides))?;
+        read_class_map(&mut config.camera, self.config.as_deref(), &self.overrides)?;
         Ok(config)
     }
 
@@ -164,15 +164,6 @@ impl DesignArgs {
         let file = self.config.as_deref().filter(|_| alone.is_err()).map(named);
         CliError::Config { file, error }
     }
-}
-
-/// Returns the folder of a relative path in `zones.map`: that of the file, or the working folder for
-/// a path in `--set`.
-pub(crate) fn map_folder(file: Option<&Path>, overrides: &[String]) -> PathBuf {
-    let mut keys = overrides.iter().filter_map(|one| Some(one.split_once('=')?.0.trim()));
-    let is_overridden = keys.any(|key| key == "zones" || key == "zones.map");
-    let file = file.filter(|_| !is_overridden);
-    file.and_then(Path::parent).unwrap_or(Path::new("")).to_owned()
 }
 
 /// Returns the name of a configuration file in messages.

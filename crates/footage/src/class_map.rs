@@ -5,24 +5,32 @@
 use std::path::Path;
 
 use foveate_camera::{CameraConfig, RegionClass};
-use image::{ImageBuffer, Pixel, Primitive, Rgb};
 
 use crate::FootageError;
 use crate::picture::read_image;
 
 /// Replaces the image of `zones.map` in a configuration by the classes of its pixels. A relative
-/// path is relative to `folder`. Without such an image nothing happens.
+/// path is relative to the folder of `file`, from which the configuration was read, or to the
+/// working folder if one of the `overrides` (`KEY=VALUE`) names the image. Without such an image
+/// nothing happens.
 ///
 /// # Errors
 /// Fails if the image cannot be read, if it has a pixel whose colour is no class, or if the
 /// configuration has `zones.classes`, too.
-pub fn read_class_map(config: &mut CameraConfig, folder: &Path) -> Result<(), FootageError> {
+pub fn read_class_map(
+    config: &mut CameraConfig,
+    file: Option<&Path>,
+    overrides: &[String],
+) -> Result<(), FootageError> {
     let Some(zones) = &mut config.zones else { return Ok(()) };
     if let Some(map) = zones.map.take() {
         if !zones.classes.is_empty() {
             return Err(FootageError::ClassesTwice { map });
         }
-        zones.classes = class_rows(&folder.join(map))?;
+        let mut keys = overrides.iter().filter_map(|one| Some(one.split_once('=')?.0.trim()));
+        let is_overridden = keys.any(|key| key == "zones" || key == "zones.map");
+        let folder = file.filter(|_| !is_overridden).and_then(Path::parent);
+        zones.classes = class_rows(&folder.unwrap_or(Path::new("")).join(map))?;
     }
     Ok(())
 }
@@ -30,25 +38,15 @@ pub fn read_class_map(config: &mut CameraConfig, folder: &Path) -> Result<(), Fo
 /// Returns the codes of the classes of an image, a string of digits for each row.
 fn class_rows(path: &Path) -> Result<Vec<String>, FootageError> {
     let image = read_image(path)?;
-    match image.color().bytes_per_pixel() > image.color().channel_count() {
-        true => rows_of_pixels(path, &image.into_rgb16(), class_of_deep_colour),
-        false => rows_of_pixels(path, &image.into_rgb8(), class_of_colour),
-    }
-}
-
-/// Returns the digits of an image whose colours have classes by `class_of`.
-fn rows_of_pixels<T: Primitive + Into<u16>>(
-    path: &Path,
-    image: &ImageBuffer<Rgb<T>, Vec<T>>,
-    class_of: fn([T; 3]) -> Option<RegionClass>,
-) -> Result<Vec<String>, FootageError>
-where
-    Rgb<T>: Pixel<Subpixel = T>,
-{
+    let is_deep = image.color().bytes_per_pixel() > image.color().channel_count();
+    let white = if is_deep { u16::MAX } else { u16::from(u8::MAX) };
+    let image = image.into_rgb16();
     let mut rows = vec![String::new(); image.height() as usize];
     for (x, y, pixel) in image.enumerate_pixels() {
-        let class = class_of(pixel.0).ok_or_else(|| {
-            let [red, green, blue] = pixel.0.map(Into::into);
+        // Levels of 8 bits are multiplied by a whole number for 16 bits.
+        let colour = pixel.0.map(|level| level / (u16::MAX / white));
+        let class = class_of_colour(colour, white).ok_or_else(|| {
+            let [red, green, blue] = colour;
             FootageError::ClassColour { path: path.to_owned(), x, y, red, green, blue }
         })?;
         rows[y as usize].push(class.digit());
@@ -56,26 +54,19 @@ where
     Ok(rows)
 }
 
-/// Returns the class of a colour of 8 bits, or `None` if the colour is no class. The grey levels 1
-/// and 2 of an image of 2 bits are 85 and 170.
-fn class_of_colour(colour: [u8; 3]) -> Option<RegionClass> {
+/// Returns the class of a colour of an image whose largest level is `white`, or `None` if the colour
+/// is no class. The grey levels 1 and 2 of an image of 2 bits are 85 and 170 of 255.
+fn class_of_colour(colour: [u16; 3], white: u16) -> Option<RegionClass> {
     match colour {
         [0, 0, 0] => Some(RegionClass::Normal),
-        [255, 0, 0] | [1, 1, 1] | [85, 85, 85] => Some(RegionClass::Off),
-        [0, 255, 0] | [2, 2, 2] | [170, 170, 170] => Some(RegionClass::Keen),
-        [255, 255, 255] | [3, 3, 3] => Some(RegionClass::Always),
-        _ => None,
-    }
-}
-
-/// Returns the class of a colour of 16 bits, or `None` if the colour is no class.
-fn class_of_deep_colour(colour: [u16; 3]) -> Option<RegionClass> {
-    const MAX: u16 = u16::MAX;
-    match colour {
-        [0, 0, 0] => Some(RegionClass::Normal),
-        [MAX, 0, 0] | [1, 1, 1] => Some(RegionClass::Off),
-        [0, MAX, 0] | [2, 2, 2] => Some(RegionClass::Keen),
-        [MAX, MAX, MAX] | [3, 3, 3] => Some(RegionClass::Always),
+        [1, 1, 1] => Some(RegionClass::Off),
+        [2, 2, 2] => Some(RegionClass::Keen),
+        [3, 3, 3] => Some(RegionClass::Always),
+        [85, 85, 85] if white == 255 => Some(RegionClass::Off),
+        [170, 170, 170] if white == 255 => Some(RegionClass::Keen),
+        colour if colour == [white, 0, 0] => Some(RegionClass::Off),
+        colour if colour == [0, white, 0] => Some(RegionClass::Keen),
+        colour if colour == [white; 3] => Some(RegionClass::Always),
         _ => None,
     }
 }
@@ -84,11 +75,16 @@ fn class_of_deep_colour(colour: [u16; 3]) -> Option<RegionClass> {
 mod tests {
     use super::*;
     use foveate_camera::ZonesConfig;
-    use image::{GrayImage, Luma, RgbImage};
+    use image::{GrayImage, ImageBuffer, Luma, Rgb, RgbImage};
 
     fn config(map: &str) -> CameraConfig {
         let zones = ZonesConfig { map: Some(map.to_owned()), ..ZonesConfig::default() };
         CameraConfig { zones: Some(zones), ..CameraConfig::default() }
+    }
+
+    /// Reads the map of a configuration in a folder.
+    fn read(config: &mut CameraConfig, folder: &Path) -> Result<(), FootageError> {
+        read_class_map(config, Some(&folder.join("camera.toml")), &[])
     }
 
     #[test]
@@ -111,7 +107,7 @@ mod tests {
             ("small.pgm", &["0123"]),
         ] {
             let mut config = config(name);
-            read_class_map(&mut config, folder.path()).unwrap();
+            read(&mut config, folder.path()).unwrap();
             let zones = config.zones.unwrap();
             assert_eq!(
                 (zones.map, zones.classes),
@@ -124,7 +120,7 @@ mod tests {
     fn a_map_beside_classes_is_refused() {
         let mut config = config("map.png");
         config.zones.as_mut().unwrap().classes = vec!["01".to_owned()];
-        let error = read_class_map(&mut config, Path::new("")).unwrap_err();
+        let error = read_class_map(&mut config, None, &[]).unwrap_err();
         assert!(matches!(error, FootageError::ClassesTwice { .. }), "{error}");
     }
 
@@ -134,13 +130,13 @@ mod tests {
         let mut image = RgbImage::new(5, 4);
         image.put_pixel(3, 2, Rgb([0, 0, 255]));
         image.save(folder.path().join("blue.png")).unwrap();
-        let error = read_class_map(&mut config("blue.png"), folder.path()).unwrap_err().to_string();
+        let error = read(&mut config("blue.png"), folder.path()).unwrap_err().to_string();
         assert!(error.contains("pixel (3, 2)") && error.contains("(0, 0, 255)"), "{error}");
         let image = ImageBuffer::from_pixel(1, 1, Luma([256_u16]));
         image.save(folder.path().join("deep.png")).unwrap();
-        let error = read_class_map(&mut config("deep.png"), folder.path()).unwrap_err().to_string();
+        let error = read(&mut config("deep.png"), folder.path()).unwrap_err().to_string();
         assert!(error.contains("(256, 256, 256)"), "{error}");
-        let error = read_class_map(&mut config("gone.png"), folder.path()).unwrap_err().to_string();
+        let error = read(&mut config("gone.png"), folder.path()).unwrap_err().to_string();
         assert!(error.contains("gone.png"), "{error}");
     }
 }

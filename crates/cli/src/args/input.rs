@@ -9,6 +9,7 @@ use foveate_footage::{
     LumaRange, MAX_SIDE, Orientation, RawLayout, TimestampUnit, TimestampsFile, input_warnings,
     parse_time, plan,
 };
+use foveate_staging::{FolderKind, StagedFolder};
 
 use super::at_least_one;
 use crate::error::CliError;
@@ -118,11 +119,15 @@ pub(crate) fn refuse_several_clips<P: AsRef<Path>>(
     )))
 }
 
-/// Refuses inputs in the folder that `--force` would replace, because they would be deleted.
-pub(crate) fn refuse_inputs_within<P: AsRef<Path>>(
+/// Refuses an output folder that cannot be written, or whose replacement by `--force` would delete
+/// one of the inputs. `kind` is the kind of the folders that may be replaced.
+pub(crate) fn check_output<P: AsRef<Path>>(
     folder: &Path,
+    kind: FolderKind,
+    force: bool,
     inputs: &[P],
 ) -> Result<(), CliError> {
+    StagedFolder::check(folder, kind, force)?;
     let Ok(folder) = folder.canonicalize() else { return Ok(()) };
     let is_within = |input: &Path| {
         // The last part of an input may be a pattern.

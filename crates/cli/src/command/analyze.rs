@@ -2,29 +2,27 @@
 //! `foveate analyze`: the paper's studies as tables and charts.
 
 use foveate_footage::ImageRelation;
-use foveate_staging::StagedFolder;
 use foveate_studies::{STUDY_FOLDER, Study, StudyReport, StudyRequest, analyze};
 
-use crate::args::{AnalyzeArgs, refuse_inputs_within, warn_about_inputs};
+use crate::args::{AnalyzeArgs, check_output, warn_about_inputs};
 use crate::error::CliError;
 use crate::output;
 use crate::progress::RunTerminal;
 
 pub(crate) fn run(args: &AnalyzeArgs) -> Result<(), CliError> {
-    if !args.boxes.is_empty() && args.study.0 != Study::Recall {
-        let study = args.study.0.name();
-        return Err(CliError::Usage(format!(
-            "--boxes is only for the study recall, not for {study}; leave it out"
-        )));
+    let own_options = [
+        ("--boxes", !args.boxes.is_empty(), Study::Recall),
+        ("--sensor-events", args.sensor_events.is_some(), Study::Sensor),
+    ];
+    for (option, is_given, own) in own_options {
+        if is_given && args.study.0 != own {
+            let (own, study) = (own.name(), args.study.0.name());
+            return Err(CliError::Usage(format!(
+                "{option} is only for the study {own}, not for {study}; leave it out"
+            )));
+        }
     }
-    if args.study.0 != Study::Sensor && args.sensor_events.is_some() {
-        let study = args.study.0.name();
-        return Err(CliError::Usage(format!(
-            "--sensor-events is only for the study sensor, not for {study}; leave it out"
-        )));
-    }
-    StagedFolder::check(&args.output, STUDY_FOLDER, args.force)?;
-    refuse_inputs_within(&args.output, &args.inputs)?;
+    check_output(&args.output, STUDY_FOLDER, args.force, &args.inputs)?;
     let config = args.design.config()?;
     let input = args.input.options(ImageRelation::Clip);
     let request = StudyRequest {

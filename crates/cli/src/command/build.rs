@@ -10,7 +10,7 @@ use foveate_footage::read_class_map;
 use foveate_staging::StagedFolder;
 use serde::Serialize;
 
-use crate::args::{BuildArgs, map_folder};
+use crate::args::BuildArgs;
 use crate::error::CliError;
 use crate::progress::Progress;
 use crate::{interrupt, output};
@@ -82,7 +82,7 @@ fn configuration(board: &Board, args: &BuildArgs) -> Result<DesignConfig, CliErr
         (None, None) => board.config()?.to_toml(),
     };
     let mut config = DesignConfig::from_toml_with(&text, &args.overrides)?;
-    read_class_map(&mut config.camera, &map_folder(args.config.as_deref(), &args.overrides))?;
+    read_class_map(&mut config.camera, args.config.as_deref(), &args.overrides)?;
     Ok(config)
 }
 

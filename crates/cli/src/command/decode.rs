@@ -5,18 +5,16 @@ use std::io::Read;
 use std::path::Path;
 
 use foveate_simulator::{DecodedRecording, PacketRecording, RunOptions, SIMULATION_FOLDER};
-use foveate_staging::StagedFolder;
 use foveate_toolchain::{InterruptibleReader, open_interruptibly, standard_input};
 
 use super::simulate::text;
-use crate::args::{DecodeArgs, refuse_inputs_within};
+use crate::args::{DecodeArgs, check_output};
 use crate::error::CliError;
 use crate::progress::RunTerminal;
 use crate::{interrupt, notice, output};
 
 pub(crate) fn run(args: &DecodeArgs) -> Result<(), CliError> {
-    StagedFolder::check(&args.output, SIMULATION_FOLDER, args.force)?;
-    refuse_inputs_within(&args.output, &[&args.stream])?;
+    check_output(&args.output, SIMULATION_FOLDER, args.force, &[&args.stream])?;
     let config = args.design.config()?;
     let name = args.stream.display().to_string();
     let mut stream = open(&args.stream)?;

@@ -12,11 +12,10 @@ use foveate_inference::{
     ClipSummary, DetectionCounts, INFERENCE_FOLDER, Inference, InferenceOptions, InferenceSummary,
     TuningSummary, WholeFrameAgreement, is_array,
 };
-use foveate_staging::StagedFolder;
 use indicatif::DecimalBytes;
 
 use crate::agreement_text::{grey_levels, interval_text, noise_text};
-use crate::args::{InferArgs, refuse_inputs_within, warn_about_inputs};
+use crate::args::{InferArgs, check_output, warn_about_inputs};
 use crate::error::CliError;
 use crate::progress::RunTerminal;
 use crate::{notice, output};
@@ -32,8 +31,7 @@ pub(crate) fn run(args: &InferArgs, words: &[OsString]) -> Result<(), CliError> 
 }
 
 fn run_clips(args: &InferArgs, words: &[OsString], folder: &Path) -> Result<(), CliError> {
-    StagedFolder::check(folder, INFERENCE_FOLDER, args.force)?;
-    refuse_inputs_within(folder, &args.inputs)?;
+    check_output(folder, INFERENCE_FOLDER, args.force, &args.inputs)?;
     let (config, input) = (args.design.config()?, args.input.options(ImageRelation::Clip));
     warn_about_inputs(&args.inputs, &input);
     let footage = (&args.inputs[..], &args.boxes[..]);

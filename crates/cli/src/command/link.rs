@@ -3,16 +3,14 @@
 
 use foveate_footage::ImageRelation;
 use foveate_link::{LINK_FOLDER, LinkRequest, compare};
-use foveate_staging::StagedFolder;
 
-use crate::args::{LinkArgs, refuse_inputs_within, warn_about_inputs};
+use crate::args::{LinkArgs, check_output, warn_about_inputs};
 use crate::error::CliError;
 use crate::progress::RunTerminal;
 use crate::{interrupt, output};
 
 pub(crate) fn run(args: &LinkArgs) -> Result<(), CliError> {
-    StagedFolder::check(&args.output, LINK_FOLDER, args.force)?;
-    refuse_inputs_within(&args.output, &args.inputs)?;
+    check_output(&args.output, LINK_FOLDER, args.force, &args.inputs)?;
     let config = args.design.config()?;
     let input = args.input.options(ImageRelation::Clip);
     let mut codecs = Vec::new();

@@ -10,9 +10,8 @@ use foveate_simulator::{
     BandwidthComparison, BatchSummary, CameraTraffic, ClockFigures, DataSetPaths, RunOptions,
     RunSummary, SIMULATION_FOLDER, Simulation, run_batch,
 };
-use foveate_staging::StagedFolder;
 
-use crate::args::{SimulateArgs, refuse_inputs_within, warn_about_inputs};
+use crate::args::{SimulateArgs, check_output, warn_about_inputs};
 use crate::error::CliError;
 use crate::output;
 use crate::progress::RunTerminal;
@@ -47,8 +46,7 @@ pub(super) struct SimulationJob<'a> {
 /// Runs the job with progress and prints its summary. Fails if the result is not complete.
 pub(super) fn run_job(job: &SimulationJob<'_>) -> Result<(), CliError> {
     let SimulationJob { inputs, config, input, output: folder, options, quiet, .. } = job;
-    StagedFolder::check(folder, SIMULATION_FOLDER, options.overwrite)?;
-    refuse_inputs_within(folder, inputs)?;
+    check_output(folder, SIMULATION_FOLDER, options.overwrite, inputs)?;
     let plan = plan(inputs, input)?;
     warn_about_inputs(inputs, input);
     let hooks = RunTerminal::new(*quiet)?;

@@ -2,7 +2,7 @@
 //! Zones from configuration files and images, through all commands that compute frames.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::common::{expect_failure, run_in, run_successfully};
 
@@ -20,12 +20,18 @@ fn write_image(path: &Path, (width, height): (usize, usize), pixel: impl Fn(usiz
     fs::write(path, bytes).unwrap();
 }
 
+/// Makes the folder `designs` with a configuration, and returns its path.
+fn designs_folder(dir: &Path, text: &str) -> PathBuf {
+    let folder = dir.join("designs");
+    fs::create_dir(&folder).unwrap();
+    fs::write(folder.join("camera.toml"), text).unwrap();
+    folder
+}
+
 #[test]
 fn a_map_has_a_pixel_for_each_region_or_for_each_pixel() {
     let dir = tempfile::tempdir().unwrap();
-    let folder = dir.path().join("designs");
-    fs::create_dir(&folder).unwrap();
-    fs::write(folder.join("camera.toml"), FILE).unwrap();
+    let folder = designs_folder(dir.path(), FILE);
     let check = |map: &str| {
         let found = run_successfully(dir.path(), &["check", "--config", "designs/camera.toml"]);
         assert!(
@@ -49,9 +55,7 @@ fn a_map_has_a_pixel_for_each_region_or_for_each_pixel() {
 #[test]
 fn a_map_stays_in_the_folder_of_its_file_beside_other_keys() {
     let dir = tempfile::tempdir().unwrap();
-    let folder = dir.path().join("designs");
-    fs::create_dir(&folder).unwrap();
-    fs::write(folder.join("camera.toml"), FILE).unwrap();
+    let folder = designs_folder(dir.path(), FILE);
     write_image(&folder.join("map.pgm"), (4, 3), |x, y| CODES[4 * y + x]);
     write_image(&dir.path().join("map.pgm"), (4, 3), |_, _| 3);
     let check = |setting: &str, expected: &str| {
@@ -72,9 +76,7 @@ fn a_board_takes_a_map() {
     let dir = tempfile::tempdir().unwrap();
     let text = "[frame]\nwidth = 64\nheight = 48\n[hardware]\norganization = \"raster\"\ninterface = \"axi\"\n\
                 [zones]\nmap = \"map.pgm\"\n";
-    let folder = dir.path().join("designs");
-    fs::create_dir(&folder).unwrap();
-    fs::write(folder.join("camera.toml"), text).unwrap();
+    let folder = designs_folder(dir.path(), text);
     write_image(&folder.join("map.pgm"), (8, 6), |x, _| u8::from(x > 3));
     let args = ["--board", "ulx3s", "--project", "--config", "designs/camera.toml", "-o", "out"];
     run_successfully(dir.path(), &[&["build"], &args[..]].concat());
