@@ -43,8 +43,8 @@ impl SizedEngine {
         Ok(())
     }
 
-    /// Returns the map of classes that was set last, if one was set.
-    fn set_map(&self) -> Option<RegionClasses> {
+    /// Returns the map of classes that was assigned last, if there was one.
+    fn assigned_map(&self) -> Option<RegionClasses> {
         self.classes().filter(|classes| classes.maps_set > 0)
     }
 
@@ -150,9 +150,9 @@ impl CameraState {
         } else if own_size != Some(size) || self.process != std::process::id() {
             // Threads do not exist after a fork, but the map of classes goes on.
             let old = self.sized_engine.as_ref().filter(|_| own_size == Some(size));
-            let set_map = old.and_then(SizedEngine::set_map);
+            let assigned_map = old.and_then(SizedEngine::assigned_map);
             let mut sized_engine = SizedEngine::new(design_of_size(config, size)?, threads)?;
-            if let Some(map) = set_map {
+            if let Some(map) = assigned_map {
                 sized_engine.continue_map(&map)?;
             }
             self.sized_engine = Some(sized_engine);
@@ -164,7 +164,7 @@ impl CameraState {
     /// Returns the map of classes that was set last, for a copy of the camera.
     pub(crate) fn pickled_map(&self) -> Option<PickledMap> {
         let sized_engine = self.sized_engine.as_ref()?;
-        let RegionClasses { map, maps_set } = sized_engine.set_map()?;
+        let RegionClasses { map, maps_set } = sized_engine.assigned_map()?;
         let size = (sized_engine.design.width() as usize, sized_engine.design.height() as usize);
         Some((size, map.into_iter().map(RegionClass::code).collect(), maps_set))
     }
