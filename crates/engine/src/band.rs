@@ -97,7 +97,7 @@ pub(crate) struct BandPass<'a, T: PixelLane> {
 impl<T: PixelLane> BandPass<'_, T> {
     /// Fills `scratch.sums` for every region that the runs cover.
     #[inline(always)]
-    pub(crate) fn compute_sums<const PERIPHERY: bool>(&mut self, scratch: &mut WorkingMemory<T>) {
+    pub(crate) fn compute_sums(&mut self, scratch: &mut WorkingMemory<T>) {
         let runs = std::mem::take(&mut scratch.runs);
         scratch.levels.set(self.plan, self.classes);
         for run in &runs {
@@ -113,7 +113,7 @@ impl<T: PixelLane> BandPass<'_, T> {
         if let Some(segment) = self.plan.passes.segment {
             self.count_parts(scratch, &runs, segment);
         }
-        if PERIPHERY && let Some(periphery) = self.plan.periphery {
+        if let Some(periphery) = self.plan.periphery {
             for run in &runs {
                 self.means_of_blocks(periphery, scratch, run);
             }

@@ -155,11 +155,7 @@ impl<T: PixelLane> ReceiverState<T> {
                 black_regions: black,
                 means: band_means,
             };
-            if plan.periphery.is_some() {
-                renderer.apply_actions::<true>(plan, raw, band, actions);
-            } else {
-                renderer.apply_actions::<false>(plan, raw, band, actions);
-            }
+            renderer.apply_actions(plan, raw, band, actions);
         }
     }
 }

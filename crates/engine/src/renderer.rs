@@ -25,7 +25,7 @@ pub(crate) struct BandRenderer<'a, T> {
 impl<T: PixelLane> BandRenderer<'_, T> {
     /// Applies the action of every region of band `number`.
     #[inline(always)]
-    pub(crate) fn apply_actions<const PERIPHERY: bool>(
+    pub(crate) fn apply_actions(
         &mut self,
         plan: &CameraPlan<T>,
         raw: BorrowedFrame<'_, T>,
@@ -48,7 +48,6 @@ impl<T: PixelLane> BandRenderer<'_, T> {
                     self.black_regions[column] = false;
                 }
                 RegionAction::Hold => {}
-                RegionAction::Summarize if !PERIPHERY => {}
                 RegionAction::Summarize => {
                     let periphery =
                         plan.periphery.as_ref().expect("only a periphery sends summaries");

@@ -80,22 +80,9 @@ pub(crate) struct BandStrip<'a, T: PixelLane> {
 }
 
 impl<T: PixelLane> VectorTask for BandStrip<'_, T> {
+    /// Takes all frames through the strip.
     #[inline(always)]
-    fn run(self) {
-        // The function is compiled twice, so that cameras without a periphery do not pay for it. A page
-        // in the browser has one copy, because it is loaded each time.
-        match self.plan.periphery {
-            None if !cfg!(target_arch = "wasm32") => self.run_with::<false>(),
-            None | Some(_) => self.run_with::<true>(),
-        }
-    }
-}
-
-impl<T: PixelLane> BandStrip<'_, T> {
-    /// Takes all frames through the strip. `PERIPHERY` is true if irrelevant regions send their
-    /// means.
-    #[inline(always)]
-    fn run_with<const PERIPHERY: bool>(mut self) {
+    fn run(mut self) {
         self.skipped.clear();
         for frame in 0..self.frames.len() {
             for row in &mut self.scratch.denoised {
@@ -103,7 +90,7 @@ impl<T: PixelLane> BandStrip<'_, T> {
             }
             self.skipped.push(SkippedWork::default());
             for row in 0..self.bands.len() {
-                self.step_band::<PERIPHERY>(frame, row);
+                self.step_band(frame, row);
                 // The band that has just been written is not copied yet, because its stores are
                 // still under way.
                 if let Some(last) = row.checked_sub(1) {
@@ -116,10 +103,12 @@ impl<T: PixelLane> BandStrip<'_, T> {
             }
         }
     }
+}
 
+impl<T: PixelLane> BandStrip<'_, T> {
     /// Takes a frame through the strip's band number `row`.
     #[inline(always)]
-    fn step_band<const PERIPHERY: bool>(&mut self, frame: usize, row: usize) {
+    fn step_band(&mut self, frame: usize, row: usize) {
         let (plan, raw, number) = (self.plan, self.frames[frame], self.bands.start + row);
         let rows = row * plan.side * plan.stride()..(row + 1) * plan.side * plan.stride();
         let regions = row * plan.columns..(row + 1) * plan.columns;
@@ -142,7 +131,7 @@ impl<T: PixelLane> BandStrip<'_, T> {
                 reference: &self.reference[reference.clone()],
                 classes,
             };
-            band.compute_sums::<PERIPHERY>(self.scratch);
+            band.compute_sums(self.scratch);
         }
         let mut results = self.results.range(regions.clone());
         let valid = &mut self.reference_valid[regions.clone()];
@@ -150,7 +139,7 @@ impl<T: PixelLane> BandStrip<'_, T> {
         plan.decide_band(sums, &self.scratch.affected, valid, classes, &mut results);
         let means = row * plan.band_means()..(row + 1) * plan.band_means();
         let means = &mut self.means[means];
-        if PERIPHERY && let Some(periphery) = &plan.periphery {
+        if let Some(periphery) = &plan.periphery {
             let shown = &mut self.summary_shown[regions.clone()];
             let WorkingMemory { means: current_means, mean_differences, affected, .. } =
                 &mut *self.scratch;
@@ -171,7 +160,7 @@ impl<T: PixelLane> BandStrip<'_, T> {
             black_regions: &mut self.black_regions[regions],
             means,
         };
-        renderer.apply_actions::<PERIPHERY>(plan, raw, number, results.actions);
+        renderer.apply_actions(plan, raw, number, results.actions);
     }
 
     /// Chooses the runs of band `number`, which has these regions of the strip, that have to be

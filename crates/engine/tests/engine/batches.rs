@@ -134,7 +134,7 @@ fn batch(frames: usize) -> EngineCall {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(300))]
+    #![proptest_config(ProptestConfig::with_cases(crate::cases(300)))]
 
     #[test]
     fn batches_equal_the_model(

@@ -104,7 +104,7 @@ fn lost_regions(outcome: &FrameOutcome, seed: u64) -> Vec<u32> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(300))]
+    #![proptest_config(ProptestConfig::with_cases(crate::cases(300)))]
 
     #[test]
     fn a_lost_region_has_no_reference_and_no_summary(

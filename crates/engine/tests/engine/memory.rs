@@ -25,7 +25,7 @@ fn resumed(engine: &Engine, frame: &Frame) -> FunctionalOutcome {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(100))]
+    #![proptest_config(ProptestConfig::with_cases(crate::cases(100)))]
 
     #[test]
     fn a_model_goes_on_from_the_memory_of_an_engine(

@@ -77,7 +77,7 @@ fn options() -> impl Strategy<Value = EngineOptions> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(400))]
+    #![proptest_config(ProptestConfig::with_cases(crate::cases(400)))]
 
     #[test]
     fn engine_equals_the_model(

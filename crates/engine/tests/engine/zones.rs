@@ -54,7 +54,7 @@ fn check(camera: &Camera, frames: &[Frame], seeds: &[u64], options: EngineOption
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(500))]
+    #![proptest_config(ProptestConfig::with_cases(crate::cases(500)))]
 
     #[test]
     fn zones_of_the_engine_equal_those_of_the_model(
