@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::common::{expect_failure, run_in, run_successfully};
-use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::testing::{require_tools, takes_whole_lists};
 use foveate_toolchain::{Tool, Toolchain};
 
 /// Writes a small core on AXI into `core`.
@@ -71,7 +71,10 @@ fn edited_verilog_around_an_array_is_caught_and_replayed() {
     let sound = fs::read_to_string(&path).unwrap();
     fs::write(&path, sound.replace("last_o = data_last_q", "last_o = 1'b0")).unwrap();
     let cosim = ["cosim", "--config", "core/design.toml", "--rtl", "core/rtl", "--level", "axi"];
-    let outcome = run_in(dir.path(), &[&cosim[..], &["--junit", "cosim.xml", "--trace"]].concat());
+    // Waves and the replay each compile the core once more.
+    let waves: &[&str] = if takes_whole_lists() { &["--trace"] } else { &[] };
+    let edited = [&cosim[..], &["--junit", "cosim.xml"], waves].concat();
+    let outcome = run_in(dir.path(), &edited);
     assert_eq!(outcome.code, 1, "{}", outcome.stderr);
     for part in ["sequence \"video\"", "m_axis_packets", "foveate-replay/replay.sh"] {
         assert!(outcome.stdout.contains(part), "{}", outcome.stdout);
@@ -79,9 +82,12 @@ fn edited_verilog_around_an_array_is_caught_and_replayed() {
     let junit = fs::read_to_string(dir.path().join("cosim.xml")).unwrap();
     assert!(junit.contains("<failure") && junit.contains("m_axis_packets"), "{junit}");
     let folder = dir.path().join("foveate-replay");
-    assert!(folder.join("waves.fst").is_file() && folder.join("traffic.txt").is_file());
-    let replay = Command::new(folder.join("replay.sh")).output().unwrap();
-    assert_eq!(replay.status.code(), Some(1), "it shows the same");
+    assert!(folder.join("traffic.txt").is_file());
+    if takes_whole_lists() {
+        assert!(folder.join("waves.fst").is_file());
+        let replay = Command::new(folder.join("replay.sh")).output().unwrap();
+        assert_eq!(replay.status.code(), Some(1), "it shows the same");
+    }
 
     fs::write(&path, sound).unwrap();
     run_successfully(dir.path(), &cosim);

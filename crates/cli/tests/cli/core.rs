@@ -7,7 +7,7 @@ use std::process::Command;
 
 use crate::common::run_successfully;
 use foveate_toolchain::Tool;
-use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::testing::{require_tools, sample, takes_whole_lists};
 
 /// Runs `tb/replay.sh` as the README says, without Foveate. Returns its exit code and its output.
 fn replay(core: &Path, args: &[&str]) -> (Option<i32>, String) {
@@ -93,8 +93,10 @@ fn the_bench_runs_by_hand_and_in_verilator() {
     };
     let (is_success, text) = by_hand();
     assert!(is_success && text.starts_with("PASS "), "{text}");
-    let (code, text) = replay(&folder, &["all", "verilator"]);
-    assert_eq!((code, text.matches(": PASS ").count()), (Some(0), 2), "{text}");
+    if takes_whole_lists() {
+        let (code, text) = replay(&folder, &["all", "verilator"]);
+        assert_eq!((code, text.matches(": PASS ").count()), (Some(0), 2), "{text}");
+    }
     edit(
         &folder.join("rtl/decision.v"),
         "assign active_o  = srs_o",
@@ -182,7 +184,7 @@ fn the_bench_of_a_serial_core_finds_an_edited_leaf() {
             "denoise.filter='median3x3'",
         ],
     ];
-    for settings in designs {
+    for settings in sample(designs, 3) {
         core(dir.path(), &[settings, &["frame={width=32,height=16}"]].concat());
         let (code, text) = replay(&folder, &[]);
         assert_eq!((code, text.matches(": PASS ").count()), (Some(0), 2), "{settings:?}: {text}");

@@ -106,6 +106,7 @@ fn the_network_sees_one_of_several_frames() {
 
 /// The agreement under noise is also printed for frames that the search has not seen.
 #[test]
+#[ignore = "a design is synthesized; scripts/release.sh whole runs it"]
 fn a_fit_reports_noise_on_the_second_half() {
     if !require_tools(&[Tool::Yosys]) {
         return;

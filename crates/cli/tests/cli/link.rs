@@ -30,6 +30,7 @@ fn number(value: &Value) -> f64 {
 }
 
 #[test]
+#[ignore = "a comparison of a link with two codecs; scripts/release.sh whole runs it"]
 fn a_codec_is_the_coarsest_that_is_as_good() {
     if !require_tools(&[Tool::Ffmpeg, Tool::Ffprobe]) {
         return;
@@ -103,6 +104,7 @@ fn the_folder_is_whole_and_the_same_every_time() {
 }
 
 #[test]
+#[ignore = "two comparisons of a link; scripts/release.sh whole runs it"]
 fn a_slow_link_needs_a_buffer_and_adds_latency() {
     if !require_tools(&[Tool::Ffmpeg, Tool::Ffprobe]) {
         return;
@@ -124,6 +126,7 @@ fn a_slow_link_needs_a_buffer_and_adds_latency() {
 }
 
 #[test]
+#[ignore = "three comparisons of a link; scripts/release.sh whole runs it"]
 fn a_raster_core_says_what_a_link_without_a_buffer_loses() {
     if !require_tools(&[Tool::Ffmpeg, Tool::Ffprobe]) {
         return;

@@ -257,7 +257,8 @@ fn a_file_that_is_replaced_keeps_its_mode() {
     prepare(dir.path());
     let design = ["--preset", "bare", "--level", "rpu", "--rounds", "1", "--simulator", "iverilog"];
     let cosim = [&["cosim"][..], &design, &["--junit", "out"]].concat();
-    let fit = ["fit", "scene:street", "--max-frames", "8", "--max-syntheses", "1", "-o", "out"];
+    let small = ["--set", "frame={width=32,height=24}", "--frames", "8", "--max-syntheses", "1"];
+    let fit = [&["fit", "scene:street", "-o", "out"][..], &small].concat();
     for (command, tools) in [
         (&["live", "--page", "out"][..], &[][..]),
         (&cosim, &[Tool::Iverilog, Tool::Vvp]),

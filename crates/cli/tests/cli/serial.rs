@@ -28,6 +28,7 @@ fn cosim(folder: &Path, extra: &[&str]) -> Value {
 }
 
 #[test]
+#[ignore = "three simulators are compiled; scripts/release.sh whole runs it"]
 fn serial_model_and_rtl_agree_at_every_level() {
     if !require_tools(SIMULATORS) {
         return;
@@ -71,6 +72,7 @@ fn real_images_agree() {
 }
 
 #[test]
+#[ignore = "two simulators are compiled; scripts/release.sh whole runs it"]
 fn edited_serial_verilog_is_caught_and_replayed() {
     if !require_tools(SIMULATORS) {
         return;

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use flate2::Compression;
 use flate2::write::GzEncoder;
-use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::testing::{require_tools, sampling_step, takes_whole_lists};
 use foveate_toolchain::{Tool, Toolchain};
 use serde_json::Value;
 
@@ -86,6 +86,7 @@ fn an_array_has_the_area_of_its_units_and_of_what_they_share() {
 }
 
 #[test]
+#[ignore = "four arrays are mapped, which takes a minute; scripts/release.sh whole runs it"]
 fn a_folded_array_and_a_core_are_mapped_deep_and_plain() {
     if !is_ready() {
         return;
@@ -112,6 +113,7 @@ fn a_folded_array_and_a_core_are_mapped_deep_and_plain() {
 }
 
 #[test]
+#[ignore = "a core on AXI is mapped, which takes a minute; scripts/release.sh whole runs it"]
 fn a_core_on_axi_is_mapped_with_the_parts_around_its_array() {
     if !is_ready() {
         return;
@@ -148,7 +150,9 @@ fn the_netlist_agrees_with_the_model() {
         let simulate = ["cosim", "--rounds", "1", "--rtl", "gates"];
         run_in(dir.path(), &[&simulate[..], &SMALL, design, part].concat())
     };
-    for (design, part) in designs {
+    // The first design is mapped below.
+    let mapped = if takes_whole_lists() { &designs[..] } else { &[] };
+    for &(design, part) in mapped {
         let estimate = [
             "estimate",
             "--quiet",
@@ -167,10 +171,11 @@ fn the_netlist_agrees_with_the_model() {
             outcome.stderr
         );
     }
-    // A wrong cell is found.
+    // A wrong cell is found, in a design that passes without it.
     let (design, part) = designs[0];
     let estimate = ["estimate", "--quiet", "--liberty", "--netlist", "gates/gates.v"];
     run_successfully(dir.path(), &[&estimate[..], &SMALL, design].concat());
+    assert_eq!(cosim(design, part).code, 0);
     let text = fs::read_to_string(&netlist).unwrap();
     let wrong = text.replacen("module XOR2X1(", "module XNOR_AS_XOR(", 1);
     assert_ne!(wrong, text);
@@ -185,6 +190,7 @@ fn the_netlist_agrees_with_the_model() {
 }
 
 #[test]
+#[ignore = "a core is mapped three times; scripts/release.sh whole runs it"]
 fn large_memories_get_macros_that_fit() {
     if !is_ready() {
         return;
@@ -242,6 +248,7 @@ fn large_memories_get_macros_that_fit() {
 }
 
 #[test]
+#[ignore = "an array is mapped twice; scripts/release.sh whole runs it"]
 fn a_rom_of_any_size_becomes_gates() {
     if !is_ready() {
         return;
@@ -321,7 +328,7 @@ fn the_energy_follows_from_the_activity_of_a_clip() {
         let image = [b"P5 8 12 255\n", pixels.as_slice()].concat();
         fs::write(dir.path().join(format!("clip/{frame:02}.pgm")), image).unwrap();
     }
-    for organization in ["pipelined", "serial"] {
+    for organization in ["pipelined", "serial"].into_iter().step_by(sampling_step(2)) {
         let hardware = format!("hardware.organization='{organization}'");
         let args = |more: &[&'static str]| {
             [&SMALL[..], &["--set", &hardware, "--liberty"], more]

@@ -32,6 +32,7 @@ fn column(folder: &Path, name: &str) -> Vec<String> {
 
 /// The figures are those of `estimate` for the same design and clip, in every file.
 #[test]
+#[ignore = "a minute of synthesis; scripts/release.sh whole runs it"]
 fn points_have_the_figures_of_estimate_and_are_not_measured_twice() {
     if !is_ready() {
         return;
@@ -154,6 +155,7 @@ fn a_clip_that_ends_early_has_no_energy() {
 
 /// The fronts and the texts name the same area, also if no point has one.
 #[test]
+#[ignore = "half a minute of synthesis; scripts/release.sh whole runs it"]
 fn a_front_without_areas_is_named_so() {
     if !is_ready() {
         return;

@@ -83,6 +83,7 @@ fn the_cheapest_design_in_a_process_has_the_figures_of_estimate() {
 
 /// A lane is smaller than the RPUs of its regions, and takes more energy, because it needs more clocks.
 #[test]
+#[ignore = "half a minute of synthesis; scripts/release.sh whole runs it"]
 fn the_cheapest_design_is_that_of_the_wanted_cost() {
     if !is_ready() {
         return;
@@ -107,6 +108,7 @@ fn the_cheapest_design_is_that_of_the_wanted_cost() {
 /// A lane keeps its regions in a memory, which is neither flip-flops nor a macro here. No clock is above the
 /// highest one of the cells.
 #[test]
+#[ignore = "half a minute of synthesis; scripts/release.sh whole runs it"]
 fn a_design_with_a_large_memory_has_no_energy_and_no_clock_beyond_its_cells() {
     if !is_ready() {
         return;
@@ -131,6 +133,7 @@ fn a_design_with_a_large_memory_has_no_energy_and_no_clock_beyond_its_cells() {
 }
 
 #[test]
+#[ignore = "half a minute of synthesis; scripts/release.sh whole runs it"]
 fn limits_of_a_process_can_be_binding() {
     if !is_ready() {
         return;

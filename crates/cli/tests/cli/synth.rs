@@ -28,6 +28,7 @@ fn slowest_clock(core: &Path, script: &str, words: &[&str], nextpnr: Tool) -> f6
 const TOLERANCE: f64 = 0.15;
 
 #[test]
+#[ignore = "half a minute of synthesis and routing; scripts/release.sh whole runs it"]
 fn the_scripts_of_a_core_give_the_clock_of_the_estimate() {
     if !require_tools(&[Tool::Yosys, Tool::NextpnrIce40, Tool::NextpnrEcp5]) {
         return;

@@ -9,7 +9,7 @@ use foveate_cosim::{
     cell_models, has_miswired_block_ram,
 };
 use foveate_design::{OutputQualifier, Port, PortDirection, PortRole};
-use foveate_toolchain::testing::{require_tools, sampling_step};
+use foveate_toolchain::testing::{require_tools, sample};
 use foveate_toolchain::verilator::OptimizationLevel;
 use foveate_toolchain::yosys::{self, YosysJob};
 use foveate_toolchain::{Cache, Source, Tool, Toolchain};
@@ -261,11 +261,11 @@ fn block_rams_of_every_width_do_what_the_rtl_does() {
     let larger = [(1, 1 << 15), (8, 1 << 12), (16, 1 << 11), (32, 1 << 10), (10, 1 << 12)];
     // Words that are wider than a port; one needs two cells, and one leaves a port unused.
     let wide = [(9, 1 << 11), (36, 1 << 9), (27, 1 << 9), (40, 1 << 10)];
-    let one = [&shapes[..], &larger].concat().into_iter().step_by(sampling_step(2));
+    let one = [&shapes[..], &larger].concat().into_iter();
     let one = one.map(|shape| (MemoryPorts::One, shape));
     let two =
         [&shapes[..], &larger, &wide].concat().into_iter().map(|shape| (MemoryPorts::Two, shape));
-    let shapes: Vec<(MemoryPorts, (u32, u32))> = one.chain(two).collect();
+    let shapes: Vec<(MemoryPorts, (u32, u32))> = sample(one.chain(two), 6);
     let memories: Vec<(DesignUnderTest, Recording)> = shapes
         .iter()
         .map(|&(ports, (width, words))| memory_with_recording(ports, width, words))
@@ -341,9 +341,10 @@ fn a_wrong_block_ram_is_found_and_another_mode_is_refused() {
         (MemoryPorts::Two, 8, 1 << 11, "RAMB18E2"),
         (MemoryPorts::Two, 36, 1 << 9, "RAMB18E2"),
     ];
-    let memories =
-        shapes.map(|(ports, width, words, _)| memory_with_recording(ports, width, words));
-    let netlists = synthesize_all(&memories.each_ref().map(|(rtl, _)| rtl));
+    let shapes = sample(shapes, 3);
+    let memory = |&(ports, width, words, _): &_| memory_with_recording(ports, width, words);
+    let memories: Vec<_> = shapes.iter().map(memory).collect();
+    let netlists = synthesize_all(&memories.iter().map(|(rtl, _)| rtl).collect::<Vec<_>>());
     for ((ports, width, _, cell), ((_, recording), (netlist, cells))) in
         shapes.into_iter().zip(memories.iter().zip(&netlists))
     {

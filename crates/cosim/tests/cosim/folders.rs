@@ -5,7 +5,7 @@ use crate::common::{cosimulate, design, directed_stimulus};
 use foveate_cosim::{CosimError, CosimJob, CosimLevel, CosimProgress, CosimReport, Simulator};
 use foveate_design::DesignConfig;
 use foveate_staging::StagingError;
-use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::testing::{require_tools, sample};
 use foveate_toolchain::{Cache, Toolchain};
 use std::fs;
 use std::path::Path;
@@ -165,7 +165,7 @@ fn an_interrupt_ends_the_simulation_and_leaves_nothing() {
 
 #[test]
 fn waves_of_a_replay_are_written_when_asked_for() {
-    for simulator in Simulator::ALL {
+    for simulator in sample(Simulator::ALL, 2) {
         if !require_tools(SIMULATOR.tools()) || !require_tools(simulator.tools()) {
             continue;
         }

@@ -9,7 +9,7 @@ use foveate_cosim::{
 };
 use foveate_design::{Design, DesignConfig, PRESETS};
 use foveate_emit::{Prefix, SourceFile, Top, verilog};
-use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::testing::{require_tools, sample};
 use foveate_toolchain::{Tool, Toolchain};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -154,7 +154,7 @@ fn faults_of_a_large_frame_are_found_by_the_default_runs_and_by_the_bench() {
     let sound = verilog(&design, Top::Rcm);
     assert!(!is_found_by_bench(&bench, &sound), "no fault, and yet the bench fails");
     let output = tempfile::tempdir().unwrap();
-    let failures = in_parallel(FAULTS, |fault| {
+    let failures = in_parallel(&sample(FAULTS, 6), |&fault| {
         let LargeFrameFault { description: what, file, from, to } = fault;
         let mut files = sound.clone();
         let edited = files.iter_mut().find(|source| source.path == *file);
@@ -224,11 +224,12 @@ fn each_copy_of_an_array_is_connected_to_its_own_lanes() {
         return;
     }
     let toolchain = Toolchain::system();
-    for more in [
+    let variants = [
         "",
         "region.neighborhood = 'shared'\ndenoise.filter = 'median3x3'\n",
         "hardware.sync = true\n",
-    ] {
+    ];
+    for more in sample(variants, 3) {
         let design = design(&format!("frame = {{ width = 160, height = 104 }}\n{more}"));
         let sources = core_sources(&design);
         let levels = CosimLevel::for_sources(&design, &sources, &Prefix::default());
@@ -292,7 +293,7 @@ fn nothing_of_a_generated_core_is_left_out() {
         return;
     }
     let toolchain = Toolchain::system();
-    let failures = in_parallel(&listed_designs(), |(name, design)| {
+    let failures = in_parallel(&sample(listed_designs(), 4), |(name, design)| {
         let sources = core_sources(design);
         let bench = ShippedBench::levels(design).map_err(|error| error.to_string())?;
         for (what, levels) in [

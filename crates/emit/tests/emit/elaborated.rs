@@ -5,7 +5,9 @@
 use std::collections::BTreeSet;
 use std::fs;
 
-use crate::common::{EXTRA_RASTER_DESIGNS, covering, design, every_design, every_design_on_a_bus};
+use crate::common::{
+    covering_designs, covering_values, design, every_design, every_design_on_a_bus,
+};
 use foveate_design::Organization;
 use foveate_emit::{AXI_TOP, LEAVES, SourceFile, Top, axi_modules, verilog};
 use foveate_toolchain::iverilog::{self, IverilogJob};
@@ -60,8 +62,7 @@ fn icarus_has_no_warning_and_elaborates_every_leaf_in_some_design() {
     if !require_tools(&[Tool::Iverilog]) {
         return;
     }
-    let more = EXTRA_RASTER_DESIGNS.map(str::to_owned).to_vec();
-    let designs = [covering(every_design()), covering(every_design_on_a_bus()), more];
+    let designs = [covering_designs(), covering_values(every_design_on_a_bus())];
     let (modules, warnings) = elaborated_by_all(&designs.concat());
     assert!(warnings.is_empty(), "{}", warnings.join("\n"));
     for leaf in LEAVES {

@@ -10,7 +10,7 @@ use crate::common::{design, every_design};
 use cases::{LimitCase, all_leaves, cases, with_default};
 use foveate_emit::{Top, verilog};
 use foveate_toolchain::iverilog::{self, IverilogJob};
-use foveate_toolchain::testing::{require_tools, sampling_step};
+use foveate_toolchain::testing::{require_tools, sample};
 use foveate_toolchain::yosys::{self, YosysJob};
 use foveate_toolchain::{Cache, Source, Tool, ToolError, Toolchain, verilator};
 use rayon::prelude::*;
@@ -87,24 +87,13 @@ fn parameters_out_of_range_are_refused_one_by_one() {
         (!found.is_empty())
             .then(|| format!("{} {:?}: {}", case.module, case.parameters, found.join("; ")))
     };
-    // Verilator runs on a sixth of the cases out of range, and on the first of each module; the
-    // other tools refuse all of them together.
-    let cases = cases();
-    let mut modules = BTreeSet::new();
-    let chosen: Vec<&LimitCase> = cases
-        .iter()
-        .enumerate()
-        .filter(|(number, case)| {
-            let first = case.refusing_limit.is_some() && modules.insert(&case.module);
-            case.refusing_limit.is_none() || first || number % sampling_step(6) == 0
-        })
-        .map(|(_, case)| case)
-        .collect();
-    let failures: Vec<String> = chosen.into_par_iter().filter_map(check).collect();
+    let cases = sample(cases(), 9);
+    let failures: Vec<String> = cases.par_iter().filter_map(check).collect();
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
-/// All cases out of range are in one elaboration, in Icarus and in Yosys.
+/// All cases out of range are in one elaboration, in Icarus and in Yosys; a fourth of them in most
+/// runs.
 #[test]
 fn parameters_out_of_range_are_refused_together() {
     if !require_tools(TOOLS) {
@@ -113,7 +102,8 @@ fn parameters_out_of_range_are_refused_together() {
     let cases = cases();
     let refused =
         cases.iter().filter_map(|case| case.refusing_limit.as_ref().map(|limit| (case, limit)));
-    let named: Vec<(String, &LimitCase, &String)> = refused
+    let named: Vec<(String, &LimitCase, &String)> = sample(refused, 4)
+        .into_iter()
         .enumerate()
         .map(|(number, (case, limit))| (format!("case_{number}"), case, limit))
         .collect();
@@ -167,7 +157,7 @@ fn grids_out_of_range_are_refused() {
     let large = "denoise.filter = 'none'\nregion.size = 64\nframe = { width = 256, height = 64 }\n";
     let lanes = format!("{large}hardware.organization = 'serial'\n");
     let raster = format!("{large}hardware.organization = 'raster'\n");
-    for (toml, top, columns, rows, refused) in [
+    let cases = [
         (pipelined, Top::Rcm, "3", "2", None),
         (pipelined, Top::Rcm, "0", "1", Some("COLUMNS_must_be_1_or_more")),
         (pipelined, Top::Rcm, "1", "0", Some("ROWS_must_be_1_or_more")),
@@ -186,7 +176,8 @@ fn grids_out_of_range_are_refused() {
         (&raster, Top::Rcm, "4", "0", any),
         (&serial, Top::Rpu, "2", "1", None),
         (&serial, Top::Rpu, "1", "1", any),
-    ] {
+    ];
+    for (toml, top, columns, rows, refused) in sample(cases, 5) {
         let mut files = verilog(&design(toml), top);
         let file = files.last_mut().unwrap();
         file.contents = with_default(&file.contents, "COLUMNS", columns);

@@ -119,7 +119,7 @@ fn a_point_has_the_clock_of_its_netlist() {
 
 /// The tables have the area of a core on AXI, and not that of the array in it.
 #[test]
-#[ignore = "`cli` synthesizes such a core in every run; scripts/release.sh runs it"]
+#[ignore = "`cli` synthesizes such a core in every run; scripts/release.sh whole runs it"]
 fn a_core_on_axi_is_counted_as_a_whole() {
     if !require_tools(&[Tool::Yosys]) {
         return;

@@ -15,7 +15,7 @@ use foveate_footage::{InputOptions, open};
 use foveate_inference::{Framing, PixelMapping, VisionOptions};
 use foveate_playback::testing::RecordingHooks;
 use foveate_playback::{InputError, PlaybackError, RunHooks, SilentHooks};
-use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::testing::{require_tools, takes_whole_lists};
 use foveate_toolchain::{Cache, Tool, Toolchain};
 
 fn run(
@@ -122,6 +122,9 @@ fn a_network_cannot_tell_the_design_from_whole_frames() {
     let agreed = near.network.as_ref().unwrap().fitted;
     assert!(agreed.share > agreed.expected && agreed.expected >= 0.97, "{agreed:?}");
     assert!(near.why.iter().any(|line| line.contains(": agreement ")), "{:?}", near.why);
+    if !takes_whole_lists() {
+        return;
+    }
     // The limit of 8 bytes leaves room for little more than two bits for each of 24 regions.
     let none = fitted(0.9, CostObjective::Area, Some(8.0));
     assert!(!none.feasible);
@@ -188,6 +191,7 @@ fn the_design_holds_what_was_asked_and_is_one() {
 
 /// The rate is checked at the low end of the clock of the netlist.
 #[test]
+#[ignore = "two designs are synthesized; scripts/release.sh whole runs it"]
 fn without_a_clock_the_rate_is_that_of_the_synthesized_design() {
     if !require_tools(&[Tool::Yosys]) {
         return;
@@ -213,6 +217,7 @@ fn without_a_clock_the_rate_is_that_of_the_synthesized_design() {
 }
 
 #[test]
+#[ignore = "a design is synthesized; scripts/release.sh whole runs it"]
 fn where_nothing_holds_it_says_what_binds() {
     if !require_tools(&[Tool::Yosys]) {
         return;

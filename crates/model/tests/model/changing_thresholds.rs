@@ -201,7 +201,7 @@ fn check(recipe: &DesignParameters, clip: &[Frame], seed: u64) -> Result<(), Tes
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(400))]
+    #![proptest_config(ProptestConfig::with_cases(crate::cases(400)))]
 
     #[test]
     fn each_threshold_counts_in_its_own_clock(

@@ -58,7 +58,7 @@ pub(crate) fn check(recipe: &DesignParameters, frames: &[Frame]) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(600))]
+    #![proptest_config(ProptestConfig::with_cases(crate::cases(600)))]
 
     #[test]
     fn functional_equals_the_oracle(recipe in arbitrary_cameras(), script in arbitrary_scripts(7)) {

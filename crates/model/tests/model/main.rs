@@ -29,3 +29,9 @@ mod temporal_behavior;
 mod waveforms;
 mod zone_timing;
 mod zones;
+
+/// Returns the number of cases of a property test: `whole` if tests take whole lists, and a fourth
+/// of it in most runs.
+fn cases(whole: u32) -> u32 {
+    if std::env::var_os("FOVEATE_WHOLE").is_some() { whole } else { whole / 4 }
+}

@@ -268,7 +268,7 @@ fn check_latency(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1000))]
+    #![proptest_config(ProptestConfig::with_cases(crate::cases(1000)))]
 
     #[test]
     fn every_port_after_every_edge(recipe in arbitrary_parameters(), script in arbitrary_scripts(6), gaps in gaps()) {

@@ -40,7 +40,7 @@ fn classes(map: &[u8]) -> Vec<RegionClass> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(600))]
+    #![proptest_config(ProptestConfig::with_cases(crate::cases(600)))]
 
     #[test]
     fn zones_equal_the_oracle(

@@ -1,60 +1,30 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The choice of the designs that a slow test takes from a matrix of designs.
 //!
-//! A matrix has more designs than a slow tool can build in every run of the tests. Most faults
-//! depend on one key of the configuration or on two, so [`cover`] takes few designs in which every
-//! pair of values of the matrix still occurs, or, for the slowest tools, every value.
+//! A matrix has more designs than a tool can build in every run of the tests. Most faults depend on
+//! one key of the configuration, so [`cover`] takes few designs in which every value of the matrix
+//! still occurs.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::takes_whole_lists;
 
-/// The density with which a test covers a matrix of designs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CoverDepth {
-    /// Fewest designs, in which every value of a key that occurs in the matrix occurs.
-    Values,
-    /// Few designs, in which every pair of values of two keys that occurs in the matrix occurs.
-    Pairs,
-    /// All designs of the matrix.
-    Whole,
+/// Returns the designs of a matrix that cover it, in their order: the fewest in which every value of
+/// a key that occurs in the matrix occurs, or all of them if tests take whole lists. `toml` returns
+/// the configuration of a design as `to_toml` writes it. A key that a design lacks counts as a value
+/// of its own. The size of the frame and the thresholds are numbers without a case of their own in
+/// the hardware, so they do not count.
+pub fn cover<T>(designs: Vec<T>, toml: impl Fn(&T) -> String) -> Vec<T> {
+    if takes_whole_lists() { designs } else { cover_of_values(designs, toml) }
 }
 
-impl CoverDepth {
-    /// Returns the depth of this run of the tests: whole if the environment variable
-    /// `FOVEATE_WHOLE` is set, and otherwise pairs.
-    #[must_use]
-    pub fn of_run() -> Self {
-        Self::Pairs.unless_whole()
-    }
-
-    /// Returns the depth of this run of a test with a very slow tool: whole if the environment
-    /// variable `FOVEATE_WHOLE` is set, and otherwise values.
-    #[must_use]
-    pub fn of_slow_run() -> Self {
-        Self::Values.unless_whole()
-    }
-
-    fn unless_whole(self) -> Self {
-        if takes_whole_lists() { Self::Whole } else { self }
-    }
-}
-
-/// Returns the designs of a matrix that cover it, in their order. `toml` returns the configuration
-/// of a design as `to_toml` writes it. A key that a design lacks counts as a value of its own.
-/// The size of the frame and the thresholds are numbers without a case of their own in the
-/// hardware, so they do not count.
-///
-/// The choice is greedy: it takes the design that adds most pairs or values, and of equal ones the
-/// first.
-pub fn cover<T>(designs: Vec<T>, depth: CoverDepth, toml: impl Fn(&T) -> String) -> Vec<T> {
-    let values = || designs.iter().map(|design| key_values(&toml(design))).collect::<Vec<_>>();
-    let items = match depth {
-        CoverDepth::Values => value_pairs(&values(), |one, other| one == other),
-        CoverDepth::Pairs => value_pairs(&values(), |_, _| true),
-        CoverDepth::Whole => return designs,
-    };
-    let mut missing: BTreeSet<usize> = items.iter().flatten().copied().collect();
+/// The choice is greedy: it takes the design that adds most values, and of equal ones the first.
+fn cover_of_values<T>(designs: Vec<T>, toml: impl Fn(&T) -> String) -> Vec<T> {
+    let values: Vec<_> = designs.iter().map(|design| key_values(&toml(design))).collect();
+    let keys: BTreeSet<&String> = values.iter().flat_map(BTreeMap::keys).collect();
+    let items = values.iter().map(|values| keys.iter().map(|&key| (key, values.get(key))));
+    let items: Vec<BTreeSet<_>> = items.map(Iterator::collect).collect();
+    let mut missing: BTreeSet<_> = items.iter().flatten().copied().collect();
     let mut taken = BTreeSet::new();
     while !missing.is_empty() {
         let added = |&design: &usize| items[design].intersection(&missing).count();
@@ -86,30 +56,6 @@ fn key_values(toml: &str) -> BTreeMap<String, String> {
     values
 }
 
-/// Returns the pairs of values of every design, of the keys whose places `counts` accepts. Each pair
-/// has a number. A value makes a pair with itself, too.
-fn value_pairs(
-    designs: &[BTreeMap<String, String>],
-    counts: impl Fn(usize, usize) -> bool,
-) -> Vec<BTreeSet<usize>> {
-    let keys: BTreeSet<&String> = designs.iter().flat_map(BTreeMap::keys).collect();
-    let mut numbers = BTreeMap::new();
-    let mut pairs_of = |values: &BTreeMap<String, String>| {
-        let values: Vec<_> = keys.iter().map(|&key| (key, values.get(key).cloned())).collect();
-        let all =
-            (0..values.len()).flat_map(|one| (one..values.len()).map(move |other| (one, other)));
-        let counted = all.filter(|&(one, other)| counts(one, other));
-        let pairs = counted.map(|(one, other)| (values[one].clone(), values[other].clone()));
-        pairs
-            .map(|pair| {
-                let next = numbers.len();
-                *numbers.entry(pair).or_insert(next)
-            })
-            .collect()
-    };
-    designs.iter().map(&mut pairs_of).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -130,23 +76,8 @@ mod tests {
     }
 
     #[test]
-    fn few_designs_have_every_pair() {
-        let few = cover(matrix(), CoverDepth::Pairs, toml);
-        assert!((12..=15).contains(&few.len()), "{few:?}");
-        let count = |pair: fn(&MatrixDesign) -> (u32, Option<u32>)| {
-            few.iter().map(pair).collect::<BTreeSet<_>>().len()
-        };
-        let pairs = [
-            count(|&(first, second, _)| (first, Some(second))),
-            count(|&(first, _, third)| (first, third)),
-            count(|&(_, second, third)| (second, third)),
-        ];
-        assert_eq!(pairs, [12, 9, 12]);
-    }
-
-    #[test]
-    fn fewer_designs_have_every_value() {
-        let fewest = cover(matrix(), CoverDepth::Values, toml);
+    fn few_designs_have_every_value() {
+        let fewest = cover_of_values(matrix(), toml);
         let count = |value: fn(&MatrixDesign) -> u32| {
             fewest.iter().map(value).collect::<BTreeSet<_>>().len()
         };
@@ -157,21 +88,16 @@ mod tests {
 
     #[test]
     fn the_choice_is_in_order_and_always_the_same() {
-        let few = cover(matrix(), CoverDepth::Pairs, toml);
+        let few = cover_of_values(matrix(), toml);
         assert!(few.is_sorted());
-        assert_eq!(few, cover(matrix(), CoverDepth::Pairs, toml));
+        assert_eq!(few, cover_of_values(matrix(), toml));
     }
 
     #[test]
     fn a_design_with_a_value_of_its_own_is_always_taken() {
         let own: Vec<_> = (0..5).map(|number| (number, 0, None)).collect();
-        assert_eq!(cover(own.clone(), CoverDepth::Pairs, toml), own);
-        assert!(cover(Vec::new(), CoverDepth::Pairs, toml).is_empty());
-    }
-
-    #[test]
-    fn the_whole_matrix_is_taken_at_the_depth_whole() {
-        assert_eq!(cover(matrix(), CoverDepth::Whole, toml), matrix());
+        assert_eq!(cover_of_values(own.clone(), toml), own);
+        assert!(cover_of_values(Vec::new(), toml).is_empty());
     }
 
     #[test]

@@ -4,7 +4,7 @@
 
 mod cover;
 
-pub use cover::{CoverDepth, cover};
+pub use cover::cover;
 
 use std::collections::HashMap;
 use std::ffi::OsString;
@@ -46,6 +46,13 @@ pub fn takes_whole_lists() -> bool {
 #[must_use]
 pub fn sampling_step(n: usize) -> usize {
     if takes_whole_lists() { 1 } else { n }
+}
+
+/// Returns every `n`-th item of a list in most runs, beginning with the first, and all of them if
+/// tests take whole lists.
+#[must_use]
+pub fn sample<T>(items: impl IntoIterator<Item = T>, n: usize) -> Vec<T> {
+    items.into_iter().step_by(sampling_step(n)).collect()
 }
 
 /// Returns the folder of real images and video that the environment variable `FOVEATE_DATA` names.

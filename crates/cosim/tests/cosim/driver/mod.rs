@@ -534,7 +534,7 @@ fn every_planted_fault_of_the_driver_is_caught() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
         return;
     }
-    let sampled: Vec<_> = FAULTS.iter().step_by(sampling_step(8)).collect();
+    let sampled: Vec<_> = FAULTS.iter().step_by(sampling_step(12)).collect();
     let missed = in_parallel(&sampled, |&&fault| {
         let is_missed = DESIGNS.iter().all(|(keys, changes)| {
             let design = axi_design(keys);

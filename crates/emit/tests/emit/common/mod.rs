@@ -2,17 +2,12 @@
 //! Designs to emit, in which every value of the configuration occurs, mostly with every other.
 
 use foveate_design::{Design, DesignConfig};
-use foveate_toolchain::testing::{CoverDepth, cover};
+use foveate_toolchain::testing::cover;
 use std::process::{Command, Stdio};
 
-/// Returns the designs of a matrix that cover it at the depth of this run.
-pub(crate) fn covering(matrix: Vec<String>) -> Vec<String> {
-    cover(matrix, CoverDepth::of_run(), |toml| design(toml).config().to_toml())
-}
-
-/// Returns the designs of a matrix that cover it for a very slow tool.
+/// Returns the designs of a matrix that cover it.
 pub(crate) fn covering_values(matrix: Vec<String>) -> Vec<String> {
-    cover(matrix, CoverDepth::of_slow_run(), |toml| design(toml).config().to_toml())
+    cover(matrix, |toml| design(toml).config().to_toml())
 }
 
 /// Returns whether there is a Tcl interpreter. Prints a message if there is none, and panics if
@@ -265,6 +260,13 @@ pub(crate) const EXTRA_RASTER_DESIGNS: [&str; 19] = [
 pub(crate) fn every_design() -> Vec<String> {
     let more = EXTRA_RASTER_DESIGNS.iter().map(|toml| (*toml).to_owned());
     [pipelined_matrix(), serial_matrix(), raster_matrix(), more.collect()].concat()
+}
+
+/// Returns the designs that cover the matrix of each organization, and the others.
+pub(crate) fn covering_designs() -> Vec<String> {
+    let matrices = [pipelined_matrix(), serial_matrix(), raster_matrix()];
+    let more = EXTRA_RASTER_DESIGNS.iter().map(|toml| (*toml).to_owned());
+    matrices.map(covering_values).concat().into_iter().chain(more).collect()
 }
 
 /// Returns raster designs on AXI: those of the matrix whose pixels leave, and one with an external

@@ -93,7 +93,7 @@ pub(crate) fn check_zoned_sequence(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(1000))]
+    #![proptest_config(ProptestConfig::with_cases(crate::cases(1000)))]
 
     #[test]
     fn every_port_after_every_edge(

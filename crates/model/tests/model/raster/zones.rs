@@ -11,7 +11,7 @@ use crate::class_maps::ClassMapLog;
 use crate::frames::{SeededRandom, arbitrary_scripts};
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(600))]
+    #![proptest_config(ProptestConfig::with_cases(crate::cases(600)))]
 
     /// The reset comes at any edge of the first clip, in half of the cases after it. The maps stay.
     #[test]

@@ -97,7 +97,7 @@ pub(crate) fn check_skipping(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(500))]
+    #![proptest_config(ProptestConfig::with_cases(crate::cases(500)))]
 
     #[test]
     fn every_port_after_every_edge(

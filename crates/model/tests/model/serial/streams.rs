@@ -86,7 +86,7 @@ fn sent_lengths(recipe: &SerialParameters, results: &RegionResults) -> (usize, u
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(300))]
+    #![proptest_config(ProptestConfig::with_cases(crate::cases(300)))]
 
     #[test]
     fn any_streams_are_decided_as_by_the_pipelined_array(

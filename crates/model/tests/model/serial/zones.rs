@@ -11,7 +11,7 @@ use super::serial_parameters::arbitrary_zoned_serial_parameters;
 use crate::frames::{SeededRandom, arbitrary_scripts};
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(400))]
+    #![proptest_config(ProptestConfig::with_cases(crate::cases(400)))]
 
     /// The reset comes at any edge of the first clip, in half of the cases after it. The maps stay.
     #[test]
