@@ -3,7 +3,7 @@
 # Runs the notebooks of python/notebooks and writes their output into them. Their tests compare this output.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-tools=$(scripts/python.sh)
+tools=$(scripts/python.sh --torch)
 "$tools/python" - python/notebooks/*.ipynb <<'PYTHON'
 import sys
 import tempfile

