@@ -3,12 +3,15 @@
 # Runs every check in full, which a release must pass, with a log of the figures that the documents quote. Takes hours on two cores. A
 # step that has passed on this commit is not run again, so an interrupted run continues.
 #
-#   scripts/release.sh            all steps
-#   scripts/release.sh STEP...    some of them
-#   scripts/release.sh --list     lists the steps
-#   scripts/release.sh --left     lists what this commit lacks for a release, and the manual steps (RELEASING.md)
+#   scripts/release.sh                    all steps
+#   scripts/release.sh STEP...            some of them
+#   scripts/release.sh --changed [BASE]   those that the table in CONTRIBUTING.md names for the files that have changed since the commit
+#                                         BASE; without BASE, since the last recorded run of each step
+#   scripts/release.sh --list             lists the steps
+#   scripts/release.sh --left             lists what this commit lacks for a release, and the manual steps (RELEASING.md)
 #
-# Logs are in target/release-log/COMMIT: STEP.log of each step, and figures.md of all steps.
+# Logs are in target/release-log/COMMIT: STEP.log of each step, and figures.md of all steps. A step that passes becomes a row of
+# docs/data/release-runs.csv, which is committed.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -39,12 +42,14 @@ step_cosim() {
         ended=$?
     [ "$ended" -eq 1 ] || { echo "the miswired array ended with $ended, not with a mismatch" && return 1; }
 }
-step_benches() {
+step_whole() {
     # The whole lists of faults, netlists and designs, of which the tests otherwise take a part, and the tests that take long. No test is
     # chosen by its name, because a test that no name fits would never take its whole list.
     FOVEATE_WHOLE=1 cargo test --workspace --locked -- --include-ignored
-    FOVEATE_WHOLE=1 scripts/python.sh --test
 }
+step_python() { FOVEATE_WHOLE=1 scripts/python.sh --torch --test; }
+step_page() { scripts/web.sh --test; }
+step_workflow() { scripts/workflow.sh; }
 step_documents() { scripts/snippets.sh --whole; }
 step_netlists() {
     local array=(--level rcm --rounds 1)
@@ -96,13 +101,24 @@ step_bench() {
     foveate bench --preset paper
     foveate bench --preset serial
 }
-steps=(test quickstart documents cosim benches netlists area lint formal buses boards coverage artefacts readers newer mutation memory networks fuzz bench)
+step_speed() {
+    # The program of the last recorded run is built anew, because the speeds of two machines do not compare.
+    local recorded
+    recorded=$(awk -F, '$2 == "speed" { commit = $1 } END { print commit }' "$record")
+    git worktree remove --force "$log/recorded" 2>/dev/null || true
+    git worktree add --detach "$log/recorded" "$recorded"
+    (cd "$log/recorded" && CARGO_TARGET_DIR=target cargo build --release --locked --quiet --package foveate)
+    scripts/checks/speed.py "$FOVEATE" "$log/recorded/target/release/foveate"
+    git worktree remove --force "$log/recorded"
+}
+steps=(test quickstart documents page python workflow cosim whole netlists area lint formal buses boards coverage artefacts readers newer
+    mutation memory networks fuzz bench speed)
 
 # Lists the manual steps. Ends with 1 while this commit lacks something.
 left() {
     local version name lacks=() open=()
     version=$(scripts/checks/versions.py --print)
-    [ -z "$(git status --porcelain)" ] || lacks+=("the tree has changes that no commit has; git status shows them")
+    [ -z "$(git status --porcelain -- . ":!$record")" ] || lacks+=("the tree has changes that no commit has; git status shows them")
     mapfile -t -O "${#lacks[@]}" lacks < <(scripts/checks/versions.py --release 2>&1)
     ! git rev-parse --quiet --verify "refs/tags/v$version" >/dev/null ||
         lacks+=("there is a tag v$version already, of $(git rev-list -1 --abbrev-commit "v$version"); raise the version, or delete it if it was never pushed")
@@ -128,23 +144,32 @@ END
     [ ${#lacks[@]} -eq 0 ]
 }
 
+record=docs/data/release-runs.csv
 commit=$(git rev-parse HEAD)
 log=$(realpath -m "${CARGO_TARGET_DIR:-target}/release-log/$commit")
 case ${1:-} in
 --left) left && exit 0 || exit 1 ;;
--h | --help) sed -n '3,12s/^# \{0,1\}//p' "$0" && exit 0 ;;
+-h | --help) sed -n '3,16s/^# \{0,1\}//p' "$0" && exit 0 ;;
+--changed)
+    chosen=$(scripts/checks/release_steps.py "${@:2}")
+    [ -n "$chosen" ] || { echo "no step has changed sources" && exit 0; }
+    # shellcheck disable=SC2086  # a step is one word
+    set -- $chosen
+    echo "steps with changed sources: $*"
+    ;;
 --list) printf '%s\n' "${steps[@]}" && exit 0 ;;
 esac
 for name in "$@"; do
     declare -F "step_$name" >/dev/null || { echo "release: there is no step $name; scripts/release.sh --list shows them" >&2; exit 2; }
 done
-[ -z "$(git status --porcelain --untracked-files=no)" ] || { echo "release: commit first; a log belongs to a commit" >&2; exit 2; }
+[ -z "$(git status --porcelain --untracked-files=no -- . ":!$record")" ] || { echo "release: commit first; a log belongs to a commit" >&2; exit 2; }
 mkdir -p "$log"
 scripts/install_tools.sh
 cargo build --release --locked --quiet --package foveate
 FOVEATE=$(realpath "${CARGO_TARGET_DIR:-target}/release/foveate")
 export FOVEATE
 
+machine="$(nproc) cores $(sed -n 's/^model name.*: //p' /proc/cpuinfo | head -1 | tr -d ',')"
 selected=("$@")
 [ $# -gt 0 ] || selected=("${steps[@]}")
 failed=()
@@ -159,6 +184,7 @@ for name in "${selected[@]}"; do
     set -e
     if [ $ended -eq 0 ]; then
         echo "$((SECONDS - began)) s" >"$log/$name.passed"
+        echo "${commit:0:10},$name,$(date +%F),$machine,$((SECONDS - began)),passed" >>"$record"
         echo "$name: passed in $((SECONDS - began)) s"
     else
         failed+=("$name")
