@@ -4,7 +4,7 @@
 # A finding without a waiver in lint/waivers.txt is an error, and so is an unused waiver. Installs missing tools.
 #
 #   scripts/lint.sh             every design of the matrix
-#   scripts/lint.sh --quick     every seventh design
+#   scripts/lint.sh --quick     every fifteenth design of each matrix
 #
 # FOVEATE                            an executable to use instead of the debug build
 # FOVEATE_VERILATOR, FOVEATE_YOSYS   other executables than those in PATH

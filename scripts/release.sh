@@ -51,6 +51,7 @@ step_python() { FOVEATE_WHOLE=1 scripts/python.sh --torch --test; }
 step_page() { scripts/web.sh --test; }
 step_workflow() { scripts/workflow.sh; }
 step_documents() { scripts/snippets.sh --whole; }
+step_rustdoc() { RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked; }
 step_netlists() {
     local array=(--level rcm --rounds 1)
     foveate cosim --netlist --preset bare --rounds 1
@@ -111,7 +112,7 @@ step_speed() {
     scripts/checks/speed.py "$FOVEATE" "$log/recorded/target/release/foveate"
     git worktree remove --force "$log/recorded"
 }
-steps=(test quickstart documents page python workflow cosim whole netlists area lint formal buses boards coverage artefacts readers newer
+steps=(test quickstart documents rustdoc page python workflow cosim whole netlists area lint formal buses boards coverage artefacts readers newer
     mutation memory networks fuzz bench speed)
 
 # Lists the manual steps. Ends with 1 while this commit lacks something.

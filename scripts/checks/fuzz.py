@@ -4,7 +4,7 @@
 
     scripts/checks/fuzz.py                       every reader, 500 files each
     scripts/checks/fuzz.py --cases 20000 NAME... some readers, longer
-    scripts/checks/fuzz.py --quick               every reader, 12 files each
+    scripts/checks/fuzz.py --quick               every reader, 6 files each
     scripts/checks/fuzz.py --list                the readers
     scripts/checks/fuzz.py --keep FOLDER         also keeps the files of failed cases there
 
@@ -30,7 +30,7 @@ from fuzzing.mutate import mutate
 from fuzzing.readers import READERS, samples
 
 SOURCES = pathlib.Path(__file__).resolve().parents[2]
-DEFAULT_CASES, QUICK_CASES = 500, 12
+DEFAULT_CASES, QUICK_CASES = 500, 6
 
 
 def run_file(program, bench, reader, data):

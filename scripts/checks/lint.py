@@ -285,7 +285,7 @@ def main():
     os.makedirs(WORK, exist_ok=True)
     quick = "--quick" in sys.argv
     matrices = (matrix(), mean_designs(), serial_matrix(), raster_matrix(), raster_mean_designs(), axi_matrix())
-    designs = [design for matrix_designs in matrices for design in list(matrix_designs)[:: 7 if quick else 1]]
+    designs = [design for matrix_designs in matrices for design in list(matrix_designs)[:: 15 if quick else 1]]
     waivers = read_waivers()
     used, finding_count = collections.Counter(), 0
     jobs = int(os.environ.get("JOBS", os.cpu_count() or 1))

@@ -7,7 +7,7 @@ use std::process::Command;
 
 use crate::common::{expect_failure, foveate, run_in, run_successfully};
 use foveate_toolchain::Tool;
-use foveate_toolchain::testing::{data_folder, require_tools, sampling_step};
+use foveate_toolchain::testing::{data_folder, require_tools, sampling_step, takes_whole_lists};
 use serde_json::Value;
 
 const SIMULATORS: &[Tool] = &[Tool::Verilator, Tool::Cxx, Tool::Iverilog, Tool::Vvp];
@@ -261,10 +261,12 @@ fn the_area_is_beside_the_papers() {
         return;
     }
     let dir = tempfile::tempdir().unwrap();
-    let text = run_successfully(dir.path(), &["estimate", "--preset", "bare"]);
-    assert!(text.lines().all(|line| line.len() <= 80), "{text}");
-    for part in ["Yosys estimate (Yosys ", "RCM, paper", "143,472", "edge_detector"] {
-        assert!(text.contains(part), "{text}");
+    if takes_whole_lists() {
+        let text = run_successfully(dir.path(), &["estimate", "--preset", "bare"]);
+        assert!(text.lines().all(|line| line.len() <= 80), "{text}");
+        for part in ["Yosys estimate (Yosys ", "RCM, paper", "143,472", "edge_detector"] {
+            assert!(text.contains(part), "{text}");
+        }
     }
     let json = run_successfully(dir.path(), &["estimate", "--preset", "bare", "--json"]);
     let report: Value = serde_json::from_str(&json).unwrap();

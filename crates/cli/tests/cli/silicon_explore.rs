@@ -121,6 +121,7 @@ fn an_input_without_activity_is_refused_at_once() {
 
 /// A clip that ends early may be complete the next time, so nothing is kept of it.
 #[test]
+#[ignore = "a design is mapped and simulated twice; scripts/release.sh whole runs it"]
 fn a_clip_that_ends_early_has_no_energy() {
     if !is_ready() {
         return;

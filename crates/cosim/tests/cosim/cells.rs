@@ -341,7 +341,7 @@ fn a_wrong_block_ram_is_found_and_another_mode_is_refused() {
         (MemoryPorts::Two, 8, 1 << 11, "RAMB18E2"),
         (MemoryPorts::Two, 36, 1 << 9, "RAMB18E2"),
     ];
-    let shapes = sample(shapes, 3);
+    let shapes = sample(shapes, 4);
     let memory = |&(ports, width, words, _): &_| memory_with_recording(ports, width, words);
     let memories: Vec<_> = shapes.iter().map(memory).collect();
     let netlists = synthesize_all(&memories.iter().map(|(rtl, _)| rtl).collect::<Vec<_>>());

@@ -67,11 +67,11 @@ fn check_all(cases: &[SerialCase]) {
     assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
 }
 
-/// Checks the cases that cover a matrix, every second one in most runs. The grid counts as a key.
+/// Checks the cases that cover a matrix, every third one in most runs. The grid counts as a key.
 fn check_covering(matrix: Vec<SerialCase>) {
     let toml =
         |case: &SerialCase| format!("grid = {:?}\n{}", case.grid, case.design().config().to_toml());
-    check_all(&sample(cover(matrix, toml), 2));
+    check_all(&sample(cover(matrix, toml), 3));
 }
 
 /// Sets the keys that are no axis of a test, in turn.
@@ -236,7 +236,7 @@ fn depths_sizes_memories_and_constants_agree() {
         config.camera.temporal.reference = in_turn(ReferencePolicy::ALL, turn / 2);
         cases.push(SerialCase::array_case(with_flow_in_turn(config, turn), (2, 2)));
     }
-    check_all(&sample(cases, 5));
+    check_all(&sample(cases, 7));
 }
 
 /// Deep arrays agree for every filter x reference x feed x memory, with features whose words have a
@@ -327,7 +327,7 @@ fn summaries_agree() {
         config.hardware.make_serial().fold = fold;
         cases.push(SerialCase::array_case(with_flow_in_turn(config, turn), (3, 2)));
     }
-    check_all(&sample(cases, 5));
+    check_all(&sample(cases, 7));
 }
 
 /// A memory that the configuration names agrees if the rule would choose the other kind: for every

@@ -90,7 +90,7 @@ fn every_design_passes_without_a_fault() {
     }
     // A design that fails without a fault differs first at a port that few of its faults name, so a
     // sample is enough in most runs.
-    let sampled = designs.into_iter().enumerate().step_by(sampling_step(9));
+    let sampled = designs.into_iter().enumerate().step_by(sampling_step(15));
     let numbered: Vec<(usize, FaultDesign)> = sampled.collect();
     let failures = in_parallel(&numbered, |(number, planted)| {
         let folder = output.path().join(number.to_string());
