@@ -124,7 +124,9 @@ fn what_the_guide_shows_of_a_core_is_c() {
     }
     let dir = tempfile::tempdir().unwrap();
     let bus = "hardware.interface='axi'";
-    let made = run_in(dir.path(), &["generate", "--preset", "raster", "--set", bus, "-o", "core"]);
+    let small = "frame={width=64,height=48}";
+    let generate = ["generate", "--preset", "raster", "--set", bus, "--set", small, "-o", "core"];
+    let made = run_in(dir.path(), &generate);
     assert!(made.code == 0, "{}", made.stderr);
     let guide = include_str!("../../../../docs/guides/bus.md");
     let (_, shown) = guide.split_once("```c\n").unwrap();
