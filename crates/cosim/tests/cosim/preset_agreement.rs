@@ -23,8 +23,8 @@ fn assert_agreement(design: &Design, simulator: Simulator, stimulus: Stimulus, w
 fn every_preset_agrees_at_rpu_level_in_both_simulators() {
     let runs =
         PRESETS.iter().flat_map(|preset| Simulator::ALL.map(|simulator| (preset, simulator)));
-    // Five is odd, so the simulators take turns.
-    for (preset, simulator) in sample(runs, 5) {
+    // Nine is odd, so the simulators take turns.
+    for (preset, simulator) in sample(runs, 9) {
         let scene = Scene::find("street").unwrap();
         let config = preset.config().unwrap();
         // Every organization takes four regions side by side. Icarus is slow, and every round

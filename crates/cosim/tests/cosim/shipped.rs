@@ -586,7 +586,7 @@ fn every_tied_output_fails() {
     for (designs, simulator) in
         [(&quick[..], BenchSimulator::Icarus), (&long[..], BenchSimulator::Verilator)]
     {
-        let sampled = designs.iter().step_by(sampling_step(4));
+        let sampled = designs.iter().step_by(sampling_step(6));
         sampled.for_each(|toml| assert_tied_outputs_fail(toml, simulator));
     }
 }

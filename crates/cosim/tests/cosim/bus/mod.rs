@@ -129,7 +129,7 @@ fn packets_and_registers_of_cores_on_axi_are_those_of_the_model() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
         return;
     }
-    let runs = sample(DESIGNS.iter().map(|&keys| (keys, 1)), 6);
+    let runs = sample(DESIGNS.iter().map(|&keys| (keys, 1)), 12);
     let failures = failing_runs(&runs);
     assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
 }
