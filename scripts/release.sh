@@ -106,6 +106,7 @@ step_speed() {
     # The program of the last recorded run is built anew, because the speeds of two machines do not compare.
     local recorded
     recorded=$(awk -F, '$2 == "speed" { commit = $1 } END { print commit }' "$record")
+    [ -n "$recorded" ] || { echo "no run is recorded, so later runs compare with this commit" && return; }
     git worktree remove --force "$log/recorded" 2>/dev/null || true
     git worktree add --detach "$log/recorded" "$recorded"
     (cd "$log/recorded" && CARGO_TARGET_DIR=target cargo build --release --locked --quiet --package foveate)

@@ -71,7 +71,7 @@ step "tests of the Python package; two pages of the documents, mutated files for
 scripts/python.sh --test
 wait $! || { cat "$beside" && exit 1; }
 cat "$beside"
-step "samples of proofs, lint matrix, growth of area and mutants (scripts/formal.sh, lint.sh, area_growth.py and mutation.sh are the whole)"
+step "samples of proofs, lint matrix and mutants (scripts/formal.sh, lint.sh and mutation.sh are the whole)"
 (JOBS=1 scripts/formal.sh --quick && JOBS=1 scripts/lint.sh --quick) >"$beside" 2>&1 &
 JOBS=1 scripts/mutation.sh --sample 2 pipelined serial raster
 JOBS=1 scripts/mutation.sh --sample 2 axi

@@ -60,7 +60,7 @@ NEVER = [
     ("docs/timing.md", "edge  ", DRAWING),
     ("docs/tutorial.md", "cargo install", "it installs into the home of who runs it; scripts/artefacts.sh does it elsewhere"),
 ]
-# What takes long, by the times of a busy machine with two cores, or needs much.
+# Steps that only `--whole` runs: they take long on a busy machine with two cores, or need a large download.
 LONG = [
     ("docs/clock.md", "foveate estimate --preset bare --place-and-route", "two minutes"),
     ("docs/guides/board.md", "foveate build --board icebreaker", "four minutes"),

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use crate::common::{expect_failure, run_in, run_successfully};
 use foveate_toolchain::Tool;
-use foveate_toolchain::testing::{require_tools, sampling_step};
+use foveate_toolchain::testing::{require_tools, sample};
 use serde_json::Value;
 
 /// The options of a scene of six small frames.
@@ -36,9 +36,9 @@ fn the_figures_of_a_clip_are_those_of_link() {
     }
     let dir = tempfile::tempdir().unwrap();
     let serial = ["--preset", "serial", "--set", "hardware.fold=3"];
-    for (turn, design) in [&[][..], &serial, &RASTER].into_iter().enumerate() {
+    for design in [&[][..], &serial, &RASTER] {
         let options = [&["--clock", "90MHz", "--link", "1Mbit"][..], &[]];
-        for more in options.into_iter().skip(turn).step_by(sampling_step(2)) {
+        for more in sample(options, 2) {
             let args = ["link", "scene:street", "-o", "out", "--force", "--json"];
             let args = [&args[..], &["--codecs", "mjpeg"], &SCENE, design, more].concat();
             let link: Value = serde_json::from_str(&run_successfully(dir.path(), &args)).unwrap();

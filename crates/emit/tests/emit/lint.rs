@@ -27,8 +27,8 @@ fn check_each_design(
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
-/// Returns the designs that are linted, a third of those that cover the matrices in most runs; those
-/// of `scripts/lint.sh` are others.
+/// Returns the designs that are linted: those that cover the matrices, and a third of them in most
+/// runs.
 fn linted_designs() -> Vec<String> {
     sample(covering_designs(), 3)
 }

@@ -158,7 +158,7 @@ fn cores_of_different_designs_simulate_in_one_top() {
     let all: Vec<(&Prefix, &Design)> =
         designs.iter().map(|(prefix, design)| (prefix, design)).collect();
     let mut alone = BTreeSet::new();
-    for core in all.iter() {
+    for core in &all {
         alone.extend(simulate(Tool::Iverilog, &[*core]).unwrap());
     }
     assert_eq!(alone.len(), all.len());
