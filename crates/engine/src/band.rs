@@ -106,13 +106,18 @@ impl<T: PixelLane> BandPass<'_, T> {
             self.first_pass(scratch, run);
         }
         self.sum_displaced(scratch, &runs);
-        self.columns_to_regions(&scratch.columns, &mut scratch.region_sums);
+        if self.plan.passes.needs_sums {
+            // The second passes of `mad` and `segment` need the means.
+            let sums = &mut scratch.region_sums.sum;
+            sums::sum_by_region(&scratch.columns.sum, self.plan.side, sums);
+        }
         if let Some(fraction_bits) = self.plan.passes.mad {
             self.sum_deviations(scratch, &runs, fraction_bits);
         }
         if let Some(segment) = self.plan.passes.segment {
             self.count_parts(scratch, &runs, segment);
         }
+        self.columns_to_regions(&scratch.columns, &mut scratch.region_sums);
         if let Some(periphery) = self.plan.periphery {
             for run in &runs {
                 self.means_of_blocks(periphery, scratch, run);
@@ -218,8 +223,12 @@ impl<T: PixelLane> BandPass<'_, T> {
             let rows = first..(first + batch).min(plan.side);
             let [above, ..] = denoiser.window_rows(top + rows.start);
             let [.., below] = denoiser.window_rows(top + rows.end - 1);
+            denoiser.ensure_rows(if plan.passes.has_windows {
+                above..below + 1
+            } else {
+                top + rows.start..top + rows.end
+            });
             if plan.passes.has_windows {
-                denoiser.ensure_rows(above..below + 1);
                 for y in top + rows.start..top + rows.end {
                     let windows = denoiser.windows(y);
                     match &plan.seams {
@@ -232,8 +241,6 @@ impl<T: PixelLane> BandPass<'_, T> {
                         }
                     }
                 }
-            } else {
-                denoiser.ensure_rows(top + rows.start..top + rows.end);
             }
             for row in rows {
                 self.take_row(denoiser.row(top + row), row, levels, columns, run);
@@ -298,42 +305,51 @@ impl<T: PixelLane> BandPass<'_, T> {
         }
     }
 
+    /// Adds up the columns of every region. Columns of one type share a loop, because each call of
+    /// `sum_by_region` is compiled for every region size and instruction set.
     #[inline(always)]
     fn columns_to_regions(&self, columns: &ColumnSums<T>, regions: &mut RegionSums) {
         let side = self.plan.side;
-        // The pattern names every field, so that a new one is not forgotten. The values of `mad`
-        // and `segment` follow in a second pass.
+        // The pattern names every field, so that a new one is not forgotten.
         let FeaturePasses {
             edge,
             corner,
             has_windows: _,
-            needs_sums: sums,
+            needs_sums: _,
             needs_squares: squares,
             needs_extremes: extremes,
             needs_differences: differences,
-            mad: _,
-            segment: _,
+            mad,
+            segment,
         } = self.plan.passes;
-        sums::sum_by_region(&columns.changed, side, &mut regions.changed);
-        if edge.is_some() {
-            sums::sum_by_region(&columns.edge, side, &mut regions.edge);
+        let [upper, lower] = &columns.segment;
+        let [regions_upper, regions_lower] = &mut regions.segment;
+        let counts = [
+            (true, &columns.changed, &mut regions.changed),
+            (edge.is_some(), &columns.edge, &mut regions.edge),
+            (corner.is_some(), &columns.corner, &mut regions.corner),
+            (mad > Some(0), &columns.count_above, &mut regions.count_above),
+            (segment.is_some(), upper, regions_upper),
+            (segment.is_some(), lower, regions_lower),
+        ];
+        for (is_used, columns, regions) in counts {
+            if is_used {
+                sums::sum_by_region(columns, side, regions);
+            }
         }
-        if corner.is_some() {
-            sums::sum_by_region(&columns.corner, side, &mut regions.corner);
-        }
-        if sums {
-            sums::sum_by_region(&columns.sum, side, &mut regions.sum);
+        let above = (mad.is_some(), &columns.above, &mut regions.above);
+        let displaced = columns.differences.iter().zip(&mut regions.differences);
+        let displaced = displaced.map(|(columns, regions)| (differences, columns, regions));
+        for (is_used, columns, regions) in displaced.chain([above]) {
+            if is_used {
+                sums::sum_by_region(columns, side, regions);
+            }
         }
         if squares {
             sums::sum_by_region(&columns.square, side, &mut regions.square);
         }
         if extremes {
             range::ranges_by_region(&columns.smallest, &columns.largest, side, &mut regions.range);
-        }
-        if differences {
-            for (columns, regions) in columns.differences.iter().zip(&mut regions.differences) {
-                sums::sum_by_region(columns, side, regions);
-            }
         }
     }
 
@@ -348,11 +364,6 @@ impl<T: PixelLane> BandPass<'_, T> {
         self.spread_means(scratch, fraction_bits);
         for run in runs {
             self.sum_deviations_of_run(&mut scratch.columns, run, fraction_bits);
-        }
-        let (columns, regions) = (&scratch.columns, &mut scratch.region_sums);
-        sums::sum_by_region(&columns.above, self.plan.side, &mut regions.above);
-        if fraction_bits > 0 {
-            sums::sum_by_region(&columns.count_above, self.plan.side, &mut regions.count_above);
         }
     }
 
@@ -392,9 +403,6 @@ impl<T: PixelLane> BandPass<'_, T> {
                 let counts = counts.map(|counts| &mut counts.blocks_mut()[run.clone()]);
                 segment::count_parts(current, bounds, counts);
             }
-        }
-        for (columns, regions) in columns.segment.iter().zip(&mut region_sums.segment) {
-            sums::sum_by_region(columns, side, regions);
         }
     }
 

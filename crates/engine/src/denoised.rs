@@ -243,15 +243,15 @@ fn compute_all_blocks<T: PixelLane>(
         // The last block is ragged: it is computed together with pixels before it, or alone if
         // there are none.
         let start = width.saturating_sub(BLOCK_LANES);
-        if start > 0 {
-            columns.compute_blocks(rows.map(|row| blocks_of(row, start)), start);
-        } else {
+        if start == 0 {
             for (tail, row) in tail.iter_mut().zip(rows) {
                 tail[..width].copy_from_slice(row);
             }
-            let [a, b, c] = &*tail;
-            columns.compute_blocks([&[*a], &[*b], &[*c]], start);
         }
+        let [a, b, c] = &*tail;
+        let alone = [std::slice::from_ref(a), std::slice::from_ref(b), std::slice::from_ref(c)];
+        let blocks = if start == 0 { alone } else { rows.map(|row| blocks_of(row, start)) };
+        columns.compute_blocks(blocks, start);
     }
     columns.repeat_border(width, plan.padded_width());
 }

@@ -52,13 +52,11 @@ pub(crate) fn add_squares<T: PixelLane>(pixels: &[Block<T>], sums: &mut [Block<T
 /// Adds up the columns of every region. A region has `side` columns.
 #[inline(always)]
 pub(crate) fn sum_by_region<V: Copy + Into<u64>>(columns: &[V], side: usize, regions: &mut [u64]) {
-    // The usual sizes are constants, so that the inner loop has no counter.
+    // The small sizes are constants, so that the inner loop has no counter.
     match side {
         4 => by_constant::<4, V>(columns, regions),
         8 => by_constant::<8, V>(columns, regions),
         16 => by_constant::<16, V>(columns, regions),
-        32 => by_constant::<32, V>(columns, regions),
-        64 => by_constant::<64, V>(columns, regions),
         _ => {
             for (columns, region) in columns.chunks_exact(side).zip(regions) {
                 *region = columns.iter().map(|&column| column.into()).sum();
@@ -86,8 +84,6 @@ pub(crate) fn spread_over_columns<T: Copy>(
     match side {
         8 => spread_constant::<8, T>(regions, value, columns),
         16 => spread_constant::<16, T>(regions, value, columns),
-        32 => spread_constant::<32, T>(regions, value, columns),
-        64 => spread_constant::<64, T>(regions, value, columns),
         _ => {
             for (at, (columns, &region)) in columns.chunks_exact_mut(side).zip(regions).enumerate()
             {
