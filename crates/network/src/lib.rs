@@ -9,6 +9,7 @@
 //!
 //! [`vision`] converts frames to the input of a network and reads detections from its outputs.
 
+mod activation;
 mod comparison;
 mod element;
 mod error;

@@ -9,11 +9,12 @@
 
 use super::gathered_inputs::{ConvInput, StridedInputs, copy_short_run};
 use super::output_areas::OutputArea;
+use crate::activation::Activation;
 use crate::mask::AxisWindow;
 use foveate_lanes::{InstructionSet, PanelTask};
 
 /// The convolution of one channel.
-pub(crate) struct DepthwiseChannel<'a, F> {
+pub(crate) struct DepthwiseChannel<'a> {
     pub(crate) picture: ConvInput<'a>,
     /// The weights of the kernel in row-major order.
     pub(crate) weights: &'a [f32],
@@ -22,10 +23,10 @@ pub(crate) struct DepthwiseChannel<'a, F> {
     /// The channel's outputs, in rows of `width`.
     pub(crate) outputs: &'a mut [f32],
     pub(crate) width: usize,
-    pub(crate) finish: F,
+    pub(crate) activation: Activation,
 }
 
-impl<F: Fn(f32) -> f32> DepthwiseChannel<'_, F> {
+impl DepthwiseChannel<'_> {
     /// Computes the outputs of all areas.
     pub(crate) fn convolve(self, level: InstructionSet, planes: &mut AreaBuffers) {
         level.run_panels(DepthwiseTask(self, planes));
@@ -33,13 +34,13 @@ impl<F: Fn(f32) -> f32> DepthwiseChannel<'_, F> {
 }
 
 /// The convolution in tiles of two panels of outputs, which are four registers.
-struct DepthwiseTask<'a, F>(DepthwiseChannel<'a, F>, &'a mut AreaBuffers);
+struct DepthwiseTask<'a>(DepthwiseChannel<'a>, &'a mut AreaBuffers);
 
-impl<F: Fn(f32) -> f32> PanelTask for DepthwiseTask<'_, F> {
+impl PanelTask for DepthwiseTask<'_> {
     #[inline(always)]
     fn run<const LANES: usize, const FUSED: bool>(self) {
         let Self(
-            DepthwiseChannel { picture, weights, bias, layouts, outputs, width, finish },
+            DepthwiseChannel { picture, weights, bias, layouts, outputs, width, activation },
             planes,
         ) = self;
         for layout in layouts {
@@ -47,11 +48,9 @@ impl<F: Fn(f32) -> f32> PanelTask for DepthwiseTask<'_, F> {
             layout.gather(&picture, &mut planes.inputs);
             for first in (0..layout.output_span).step_by(2 * LANES) {
                 let inputs = &planes.inputs[first..];
-                let sums = tile::<LANES, FUSED>(inputs, &layout.taps, weights, bias);
-                let to = planes.outputs[first..].as_chunks_mut().0;
-                for (to, sums) in to.iter_mut().zip(sums) {
-                    *to = sums.map(&finish);
-                }
+                let mut sums = tile::<LANES, FUSED>(inputs, &layout.taps, weights, bias);
+                activation.apply_to_all(sums.as_flattened_mut());
+                planes.outputs[first..][..2 * LANES].copy_from_slice(sums.as_flattened());
             }
             for (row, y) in layout.area.rows.clone().enumerate() {
                 let to = &mut outputs[y * width..][layout.area.columns.clone()];

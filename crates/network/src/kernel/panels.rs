@@ -7,6 +7,7 @@ use super::chunks::{CHUNK_POSITIONS, PositionChunk};
 use super::gathered_inputs::{ConvInput, GatheredInputs};
 use super::micro_kernel::multiply;
 use super::weights::PackedWeights;
+use crate::activation::Activation;
 use foveate_lanes::{InstructionSet, PanelTask};
 use std::ops::Range;
 
@@ -33,31 +34,31 @@ pub(crate) struct ConvOutputs<'a, T = f32> {
     pub(crate) width: usize,
 }
 
-/// Computes the channels of `outputs` at the chunks, whose positions `outputs` holds. `finish` is
-/// applied to every output.
+/// Computes the channels of `outputs` at the chunks, whose positions `outputs` holds. The activation
+/// is applied to every output.
 pub(crate) fn convolve(
     level: InstructionSet,
     picture: &ConvInput<'_>,
     weights: &PackedWeights,
     chunks: &[PositionChunk],
     outputs: ConvOutputs<'_>,
-    finish: impl Fn(f32) -> f32,
+    activation: Activation,
 ) {
-    level.run_panels(ConvTask { picture, weights, chunks, outputs, finish });
+    level.run_panels(ConvTask { picture, weights, chunks, outputs, activation });
 }
 
-struct ConvTask<'a, F> {
+struct ConvTask<'a> {
     picture: &'a ConvInput<'a>,
     weights: &'a PackedWeights,
     chunks: &'a [PositionChunk],
     outputs: ConvOutputs<'a>,
-    finish: F,
+    activation: Activation,
 }
 
-impl<F: Fn(f32) -> f32> PanelTask for ConvTask<'_, F> {
+impl PanelTask for ConvTask<'_> {
     #[inline(always)]
     fn run<const LANES: usize, const FUSED: bool>(self) {
-        let Self { picture, weights, chunks, mut outputs, finish } = self;
+        let Self { picture, weights, chunks, mut outputs, activation } = self;
         assert_eq!(weights.blocking().lanes, LANES, "weights are packed for the level");
         let blocks = outputs.blocks;
         let (Some(first), Some(last)) = (blocks.first(), blocks.last()) else { return };
@@ -92,7 +93,8 @@ impl<F: Fn(f32) -> f32> PanelTask for ConvTask<'_, F> {
                         }
                         add_block::<LANES, FUSED>(products, &gathered, panel, sums);
                         if rows.end == all_rows {
-                            finish_sums(sums, &finish);
+                            // All lanes are computed, though some may have no position.
+                            activation.apply_to_all(sums.as_flattened_mut());
                             outputs.scatter(sums, block.start - first, chunks);
                         }
                     }
@@ -111,15 +113,6 @@ fn start_with_bias<const LANES: usize>(
 ) {
     for (sums, channel) in sums.iter_mut().zip(first..) {
         *sums = [weights.bias(channel); LANES];
-    }
-}
-
-/// Turns sums into outputs. All lanes are computed, with vector instructions, though some lanes may
-/// have no position.
-#[inline(always)]
-fn finish_sums<const LANES: usize>(sums: &mut [[f32; LANES]], finish: impl Fn(f32) -> f32) {
-    for sum in sums.as_flattened_mut() {
-        *sum = finish(*sum);
     }
 }
 

@@ -2,7 +2,8 @@
 //! Element-wise operations on two tensors with broadcasting: an axis with one element is repeated.
 
 use super::alignment::aligned_mask;
-use super::{Activation, Operator, OperatorJob};
+use super::{Operator, OperatorJob};
+use crate::activation::Activation;
 use crate::mask::Mask;
 use crate::tensor::Tensor;
 use crate::tensor_form::TensorForm;

@@ -2,7 +2,8 @@
 //! Functions of one 8-bit value as tables of 256 entries.
 
 use super::requantization::quantize_steps;
-use super::{Activation, Operator, OperatorJob, only_input};
+use super::{Operator, OperatorJob, only_input};
+use crate::activation::Activation;
 use crate::element::{ElementType, Encoding, with_byte_type};
 use crate::tensor_form::TensorForm;
 use crate::values::ByteNumber;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Convolution with groups, strides, dilation and padding.
 
-use super::{Activation, ConvGeometry, Operator, OperatorJob, ProductKind, output_values};
+use super::{ConvGeometry, Operator, OperatorJob, ProductKind, output_values};
+use crate::activation::Activation;
 use crate::kernel::{
     self, AreaBuffers, AreaLayout, BlockSizes, CHUNK_POSITIONS, ConvInput, ConvOutputs,
     DepthwiseChannel, PackedWeights, PositionChunk, areas_of_chunks, chunks_of_flat_mask,
@@ -72,22 +73,7 @@ impl Operator for Conv {
         if chunks.is_empty() {
             return;
         }
-        // An activation that is known at compile time needs no choice in the loop.
-        match self.activation {
-            Activation::Identity => self.convolve(job, &chunks, |x| x),
-            Activation::Relu => self.convolve(job, &chunks, |x| Activation::Relu.apply(x)),
-            Activation::Clip { min, max } => {
-                self.convolve(job, &chunks, |x| Activation::Clip { min, max }.apply(x));
-            }
-            Activation::Sigmoid => self.convolve(job, &chunks, |x| Activation::Sigmoid.apply(x)),
-            Activation::Swish { alpha } => {
-                self.convolve(job, &chunks, |x| Activation::Swish { alpha }.apply(x));
-            }
-            Activation::HardSwish => {
-                self.convolve(job, &chunks, |x| Activation::HardSwish.apply(x));
-            }
-            finish => self.convolve(job, &chunks, |x| finish.apply(x)),
-        }
+        self.convolve(job, &chunks);
     }
 
     fn products(&self) -> ProductKind {
@@ -120,12 +106,8 @@ impl Conv {
         if self.geometry.is_pointwise() { chunks_of_flat_mask(at) } else { chunks_of_mask(at) }
     }
 
-    fn convolve(
-        &self,
-        job: OperatorJob<'_>,
-        chunks: &[PositionChunk],
-        finish: impl Fn(f32) -> f32 + Copy + Sync,
-    ) {
+    fn convolve(&self, job: OperatorJob<'_>, chunks: &[PositionChunk]) {
+        let activation = self.activation;
         let OperatorJob { inputs, form, output, .. } = job;
         let output: &mut [f32] = output_values(output, form);
         let [height, width] = self.geometry.computed_size(inputs[0].form());
@@ -151,8 +133,16 @@ impl Conv {
                 let channel = |planes: &mut AreaBuffers, channel: usize, outputs: &mut [f32]| {
                     let (weights, bias) = (&weights[channel * taps..][..taps], bias[channel]);
                     let (picture, width) = (picture(channel), size[1]);
-                    DepthwiseChannel { picture, weights, bias, layouts, outputs, width, finish }
-                        .convolve(self.level, planes);
+                    DepthwiseChannel {
+                        picture,
+                        weights,
+                        bias,
+                        layouts,
+                        outputs,
+                        width,
+                        activation,
+                    }
+                    .convolve(self.level, planes);
                 };
                 threads::for_each_chunk_with_scratch(output, places, &channel);
             }
@@ -162,7 +152,9 @@ impl Conv {
                 for (group, (weights, values)) in kernels.iter().zip(planes).enumerate() {
                     let picture = picture(group);
                     let part = |(chunks, outputs): (&[PositionChunk], ConvOutputs<'_>)| {
-                        kernel::convolve(self.level, &picture, weights, chunks, outputs, finish);
+                        kernel::convolve(
+                            self.level, &picture, weights, chunks, outputs, activation,
+                        );
                     };
                     let blocks = weights.blocks();
                     threads::for_each_part(

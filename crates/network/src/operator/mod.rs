@@ -2,7 +2,7 @@
 //! The operators of a network: the form and encoding of their outputs, their computation, and the
 //! spread of changes through them.
 
-mod activation;
+mod activation_operator;
 mod alignment;
 mod axis_gather;
 mod binary_operator;
@@ -31,7 +31,7 @@ mod softmax;
 mod strided_copy;
 mod transposed_conv;
 
-pub(crate) use activation::{Activation, ActivationOperator};
+pub(crate) use activation_operator::ActivationOperator;
 pub(crate) use axis_gather::{AxisGather, AxisSelection};
 pub(crate) use binary_operator::{ArithmeticKind, BinaryOperator, broadcast_shape};
 pub(crate) use byte_table::ByteTable;
@@ -61,6 +61,7 @@ pub(crate) use softmax::{QuantizedSoftmax, Softmax};
 pub(crate) use strided_copy::{Expand, Transpose};
 pub(crate) use transposed_conv::{TransposedConv, TransposedWindow};
 
+use crate::activation::Activation;
 use crate::element::{ElementType, Encoding};
 use crate::mask::{AxisWindow, Mask};
 use crate::tensor::Tensor;

@@ -5,9 +5,8 @@
 //! is a convolution over the unchanged input, and its products are summed in the order of that
 //! convolution.
 
-use super::{
-    Activation, Operator, OperatorJob, ProductKind, feature_size, only_input, output_values,
-};
+use super::{Operator, OperatorJob, ProductKind, feature_size, only_input, output_values};
+use crate::activation::Activation;
 use crate::kernel::{self, BlockSizes, ConvInput, ConvOutputs, PackedWeights, chunks_of_mask};
 use crate::mask::{AxisWindow, Mask};
 use crate::tensor_form::TensorForm;
@@ -212,8 +211,7 @@ impl TransposedConv {
                 padding: 0.0,
             };
             let part = |(chunks, outputs): (&[kernel::PositionChunk], ConvOutputs<'_>)| {
-                let finish = |x| self.activation.apply(x);
-                kernel::convolve(self.level, &picture, weights, chunks, outputs, finish);
+                kernel::convolve(self.level, &picture, weights, chunks, outputs, self.activation);
             };
             let parts =
                 kernel::thread_parts(weights.blocks(), &chunks, &mut planes, [height, width]);

@@ -5,8 +5,8 @@ use super::graph::GraphReader;
 use super::names::full_operator_name;
 use super::node::GraphValue;
 use super::pointwise_operators;
+use crate::activation::Activation;
 use crate::onnx::NodeProto;
-use crate::operator::Activation;
 
 impl GraphReader<'_> {
     /// Lets the operator of the last node apply an activation, if no other node takes its output.

@@ -5,8 +5,9 @@ use super::constant::Constant;
 use super::constant_selection::broadcast_constant;
 use super::constant_values::ConstantValues;
 use super::model_folder::ModelFolder;
+use crate::activation::Activation;
 use crate::onnx::data_type;
-use crate::operator::{Activation, broadcast_shape};
+use crate::operator::broadcast_shape;
 
 type FoldResult<T> = Result<T, String>;
 

@@ -3,7 +3,8 @@
 
 use super::constant::Constant;
 use super::node::{GraphValue, Operand};
-use crate::operator::{Activation, Operator};
+use crate::activation::Activation;
+use crate::operator::Operator;
 use std::sync::Arc;
 
 /// An output of a node.

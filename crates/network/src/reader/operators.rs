@@ -7,7 +7,8 @@ use super::{
     normalization, pointwise_operators, quantized_operators, reductions, reshaping, resizing,
     slicing, transposed_conv,
 };
-use crate::operator::{Activation, ArithmeticKind, ComparisonKind, PoolKind, ReductionKind};
+use crate::activation::Activation;
+use crate::operator::{ArithmeticKind, ComparisonKind, PoolKind, ReductionKind};
 
 type OperatorReader = fn(&NodeReader<'_>) -> Result<Vec<NodeOutput>, String>;
 

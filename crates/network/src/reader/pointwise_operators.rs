@@ -5,11 +5,12 @@ use super::constant::Constant;
 use super::constant_arithmetic;
 use super::node::{GraphValue, NodeReader};
 use super::node_output::{NodeOutput, output_of_operands, output_of_tensors};
+use crate::activation::Activation;
 use crate::element::ElementType;
 use crate::onnx::data_type;
 use crate::operator::{
-    Activation, ActivationOperator, ArithmeticKind, BinaryOperator, ByteTable, ChannelScale,
-    ComparisonKind, ComparisonOperator, Dequantize, Operator, QuantizationScales, WhereOperator,
+    ActivationOperator, ArithmeticKind, BinaryOperator, ByteTable, ChannelScale, ComparisonKind,
+    ComparisonOperator, Dequantize, Operator, QuantizationScales, WhereOperator,
 };
 use crate::tensor::Tensor;
 use crate::tensor_form::TensorForm;

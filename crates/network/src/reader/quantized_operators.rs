@@ -8,12 +8,13 @@ use super::node_output::{NodeOutput, output_of_tensors};
 use super::normalization::softmax_operator;
 use super::reductions::pool;
 use super::scales::{byte_weight_rows, row_major_matrix};
+use crate::activation::Activation;
 use crate::element::{ElementType, Encoding};
 use crate::onnx::data_type;
 use crate::operator::{
-    Activation, ArithmeticKind, BinaryOperator, ByteTable, Concat, Dequantize, IntegerConv,
-    IntegerMatMul, PoolKind, Quantize, QuantizedBinary, QuantizedConcat, QuantizedMean,
-    QuantizedPool, QuantizedSoftmax, Requantization,
+    ArithmeticKind, BinaryOperator, ByteTable, Concat, Dequantize, IntegerConv, IntegerMatMul,
+    PoolKind, Quantize, QuantizedBinary, QuantizedConcat, QuantizedMean, QuantizedPool,
+    QuantizedSoftmax, Requantization,
 };
 use crate::tensor::Tensor;
 use crate::tensor_form::TensorForm;

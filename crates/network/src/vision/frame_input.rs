@@ -136,8 +136,9 @@ impl FrameInput {
         self.changed_regions = 0;
         for region in 0..self.changed_by_region.len() {
             let differs = |row: std::ops::Range<usize>| {
-                let mut pairs = pixels[row.clone()].iter().zip(&self.frame[row]);
-                pairs.any(|(&new, &old)| new.into() != old)
+                // All pixels of a row are compared, with vector instructions.
+                let pairs = pixels[row.clone()].iter().zip(&self.frame[row]);
+                pairs.fold(false, |differs, (&new, &old)| differs | (new.into() != old))
             };
             self.changed_by_region[region] = self.region_rows(region).any(differs);
             if self.changed_by_region[region] {

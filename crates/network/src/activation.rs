@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Activation functions of one value.
 
-use super::{Operator, OperatorJob, only_input};
-use crate::tensor_form::TensorForm;
-use foveate_lanes::{InstructionSet, VectorTask};
-
 /// An activation function of one value, as ONNX defines it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Activation {
@@ -131,6 +127,28 @@ impl Activation {
             Self::Cos => x.cos(),
         }
     }
+
+    /// Applies the function to every value. The usual functions have loops of their own, which
+    /// become vector instructions.
+    #[inline(always)]
+    pub(crate) fn apply_to_all(self, values: &mut [f32]) {
+        match self {
+            Self::Identity => {}
+            Self::Relu => replace(values, |x| Self::Relu.apply(x)),
+            Self::Clip { min, max } => replace(values, |x| Self::Clip { min, max }.apply(x)),
+            Self::Sigmoid => replace(values, sigmoid),
+            Self::Swish { alpha } => replace(values, |x| Self::Swish { alpha }.apply(x)),
+            Self::HardSwish => replace(values, |x| Self::HardSwish.apply(x)),
+            other => replace(values, |x| other.apply(x)),
+        }
+    }
+}
+
+#[inline(always)]
+fn replace(values: &mut [f32], function: impl Fn(f32) -> f32) {
+    for value in values {
+        *value = function(*value);
+    }
 }
 
 #[inline(always)]
@@ -177,51 +195,6 @@ fn erf(x: f32) -> f32 {
     #[allow(clippy::cast_possible_truncation, reason = "the value is needed as a 32-bit one")]
     let value = value as f32;
     value.copysign(x)
-}
-
-/// An activation as a separate node.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct ActivationOperator(pub(crate) Activation);
-
-impl Operator for ActivationOperator {
-    fn form(&self, inputs: &[&TensorForm]) -> Result<TensorForm, String> {
-        only_input(inputs).cloned()
-    }
-
-    fn compute(&self, job: OperatorJob<'_>) {
-        match self.0 {
-            // A function that is known at compile time needs no choice in the loop.
-            Activation::Sigmoid => apply_to_job(job, sigmoid),
-            Activation::Swish { alpha } => {
-                apply_to_job(job, |x| Activation::Swish { alpha }.apply(x));
-            }
-            Activation::HardSwish => apply_to_job(job, |x| Activation::HardSwish.apply(x)),
-            Activation::Relu => apply_to_job(job, |x| Activation::Relu.apply(x)),
-            other => apply_to_job(job, |x| other.apply(x)),
-        }
-    }
-}
-
-fn apply_to_job(job: OperatorJob<'_>, function: impl Fn(f32) -> f32 + Sync) {
-    let from = job.inputs[0].values::<f32>();
-    let level = InstructionSet::detect();
-    job.fill(|run, to| level.run(ActivationTask { from: &from[run], to, of: &function }));
-}
-
-/// A function of some values, applied in vector lanes.
-struct ActivationTask<'a, F> {
-    from: &'a [f32],
-    to: &'a mut [f32],
-    of: &'a F,
-}
-
-impl<F: Fn(f32) -> f32> VectorTask for ActivationTask<'_, F> {
-    #[inline(always)]
-    fn run(self) {
-        for (to, &from) in self.to.iter_mut().zip(self.from) {
-            *to = (self.of)(from);
-        }
-    }
 }
 
 #[cfg(test)]
