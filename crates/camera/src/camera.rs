@@ -88,6 +88,7 @@ impl Camera {
     }
 
     /// The spatial features, in the order of the configuration.
+    #[inline]
     #[must_use]
     pub fn features(&self) -> &[SpatialFeature] {
         &self.features
@@ -119,6 +120,7 @@ impl Camera {
 
     /// Returns the parameters of the summaries that irrelevant regions send, or `None` if they send
     /// none.
+    #[inline]
     #[must_use]
     pub fn periphery(&self) -> Option<&Periphery> {
         self.periphery.as_ref()
@@ -126,6 +128,7 @@ impl Camera {
 
     /// Returns the thresholds of classes of regions, or `None` for a camera without zones.
     /// [`Camera::class_thresholds`] has the thresholds of one class.
+    #[inline]
     #[must_use]
     pub fn zones(&self) -> Option<&Zones> {
         self.zones.as_ref()

@@ -16,24 +16,28 @@ impl Camera {
     }
 
     /// Returns the number of pixels of a region, n = N * N.
+    #[inline]
     #[must_use]
     pub fn region_pixels(&self) -> u32 {
         self.region_size() * self.region_size()
     }
 
     /// Returns the number of regions in a row of regions.
+    #[inline]
     #[must_use]
     pub fn columns(&self) -> u32 {
         self.width().div_ceil(self.region_size())
     }
 
     /// Returns the number of rows of regions.
+    #[inline]
     #[must_use]
     pub fn rows(&self) -> u32 {
         self.height().div_ceil(self.region_size())
     }
 
     /// Returns the number of regions of a frame, M.
+    #[inline]
     #[must_use]
     pub fn regions(&self) -> u32 {
         self.columns() * self.rows()
@@ -94,6 +98,7 @@ impl Camera {
 
     /// Returns the halo r: the pixels that the stream of a region has on each side in addition to
     /// its own. It is one for each 3x3 window in sequence, and 0 for isolated regions.
+    #[inline]
     #[must_use]
     pub fn halo(&self) -> u32 {
         match self.neighborhood() {
@@ -114,6 +119,7 @@ impl Camera {
     }
 
     /// Returns the side of the square of pixels that is streamed per region, N + 2r.
+    #[inline]
     #[must_use]
     pub fn stream_side(&self) -> u32 {
         self.region_size() + 2 * self.halo()
@@ -121,6 +127,7 @@ impl Camera {
 
     /// Returns the side of the square of pixels that enters the feature window: the output of the
     /// filter window, or the stream itself without a filter.
+    #[inline]
     #[must_use]
     pub fn denoised_side(&self) -> u32 {
         let consumed = u32::from(self.halo() > 0 && self.filter() != DenoiseFilter::None);

@@ -17,7 +17,7 @@ mod png;
 mod pnm;
 
 use std::fs::File;
-use std::io::{BufReader, Cursor, Read};
+use std::io::{Cursor, Read};
 use std::path::Path;
 
 use foveate_frame::Frame;
@@ -95,9 +95,14 @@ fn decode_image(bytes: &[u8], path: &Path) -> Result<DynamicImage, FootageError>
     limits.max_image_width = Some(MAX_SIDE);
     limits.max_image_height = Some(MAX_SIDE);
     limits.max_alloc = Some(MAX_FILE_GIB << 30);
-    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
-    reader.limits(limits);
-    let image = reader.decode().map_err(|error| decoder_error(path, &error))?;
+    let image = if format == ImageFormat::Jpeg {
+        jpeg::decode(bytes, limits)
+    } else {
+        let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+        reader.limits(limits);
+        reader.decode()
+    };
+    let image = image.map_err(|error| decoder_error(path, &error))?;
     // The decoder has read these headers within the limits.
     match format {
         ImageFormat::Pnm => pnm::check(bytes).map_err(refused)?,
@@ -138,9 +143,14 @@ pub(crate) fn is_image(path: &Path) -> bool {
 
 /// Returns the width in the header of an image.
 pub(crate) fn width(path: &Path) -> Option<u32> {
-    let reader =
-        ImageReader::new(BufReader::new(open_file(path).ok()?)).with_guessed_format().ok()?;
-    reader.into_dimensions().ok().map(|(width, _)| width)
+    let bytes = bytes_of(path).ok()?;
+    match supported_format(&bytes)? {
+        ImageFormat::Jpeg => jpeg::width(&bytes).ok(),
+        format => {
+            let reader = ImageReader::with_format(Cursor::new(&bytes[..]), format);
+            reader.into_dimensions().ok().map(|(width, _)| width)
+        }
+    }
 }
 
 /// Returns true if a file is an animated PNG.

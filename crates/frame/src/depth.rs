@@ -7,6 +7,7 @@
 //! conversion back gives the same value.
 
 /// Converts `value` from `from` bits to `to` bits; both numbers of bits are in 1..=16.
+#[inline]
 #[must_use]
 pub fn convert_depth(value: u16, from: u32, to: u32) -> u16 {
     if to <= from {

@@ -63,24 +63,28 @@ impl Frame {
     }
 
     /// Returns the width in pixels.
+    #[inline]
     #[must_use]
     pub fn width(&self) -> u32 {
         self.width
     }
 
     /// Returns the height in pixels.
+    #[inline]
     #[must_use]
     pub fn height(&self) -> u32 {
         self.height
     }
 
     /// Returns the number of bits per pixel.
+    #[inline]
     #[must_use]
     pub fn bits(&self) -> u32 {
         self.bits
     }
 
     /// Returns every pixel in row-major order.
+    #[inline]
     #[must_use]
     pub fn pixels(&self) -> &[u16] {
         &self.pixels
@@ -90,12 +94,14 @@ impl Frame {
     ///
     /// # Panics
     /// Panics if the position is outside of the frame.
+    #[inline]
     #[must_use]
     pub fn get(&self, x: u32, y: u32) -> u16 {
         self.row(y)[index(x)]
     }
 
     /// Returns the pixel of the frame that is nearest to column `x` and row `y`.
+    #[inline]
     #[must_use]
     pub fn get_clamped(&self, x: i64, y: i64) -> u16 {
         let nearest = |at: i64, size: u32| {
@@ -108,6 +114,7 @@ impl Frame {
     ///
     /// # Panics
     /// Panics if the row is outside of the frame.
+    #[inline]
     #[must_use]
     pub fn row(&self, y: u32) -> &[u16] {
         &self.pixels[index(y) * index(self.width)..][..index(self.width)]
@@ -118,6 +125,7 @@ impl Frame {
     /// # Panics
     /// Panics if the pixels reach beyond the row, or if one of them does not fit into the frame's
     /// bits.
+    #[inline]
     pub fn write_row(&mut self, x: u32, y: u32, pixels: &[u16]) {
         let max = u16::MAX >> (16 - self.bits);
         assert!(pixels.iter().all(|&pixel| pixel <= max), "a pixel above {max} in row {y}");

@@ -2,6 +2,7 @@
 //! Conversion of colours to luma.
 
 /// Returns the luma of a colour: `(77 R + 150 G + 29 B + 128) >> 8`. Grey keeps its value.
+#[inline]
 #[must_use]
 pub fn luma(red: u16, green: u16, blue: u16) -> u16 {
     let sum = 77 * u32::from(red) + 150 * u32::from(green) + 29 * u32::from(blue) + 128;

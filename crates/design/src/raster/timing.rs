@@ -143,12 +143,14 @@ impl RasterTiming {
 
     /// Returns the advances from a word to its position in the tail, w (L + 1): a(i) = i + w (L +
     /// 1).
+    #[inline]
     #[must_use]
     pub fn tail_delay(&self) -> u64 {
         u64::from(self.windows) * (u64::from(self.row_words) + 1)
     }
 
     /// Returns the number of advances of a frame, A.
+    #[inline]
     #[must_use]
     pub fn advances(&self) -> u64 {
         self.words() + self.tail_delay()
@@ -163,6 +165,7 @@ impl RasterTiming {
 
     /// Returns the clocks from T0 to the edge after which `ready_o` is 1 again, Z + D. There are
     /// more where a frame waits for pending regions.
+    #[inline]
     #[must_use]
     pub fn edges_to_ready(&self) -> u64 {
         self.flush_clocks() + u64::from(self.decision_latency)
@@ -204,6 +207,7 @@ impl RasterTiming {
     }
 
     /// Returns the number of words of a region that leave for an action, or `None` if none leave.
+    #[inline]
     #[must_use]
     pub fn words_sent(&self, action: RegionAction) -> Option<u32> {
         match action {
@@ -348,6 +352,7 @@ impl RasterTiming {
     }
 
     /// Returns the number of words of a row of regions, N*L.
+    #[inline]
     #[must_use]
     pub fn words_per_region_row(&self) -> u64 {
         let rows = u64::from(self.region_words / self.region_row_words);

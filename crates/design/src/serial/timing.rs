@@ -92,6 +92,7 @@ impl SerialTiming {
 
     /// Returns the phases of one slot that the design has, in order, each with its number of steps.
     /// They are the same for every slot.
+    #[inline]
     #[must_use]
     pub fn phases(&self) -> &[(SerialPhase, u64)] {
         &self.phases
@@ -117,12 +118,14 @@ impl SerialTiming {
     }
 
     /// Returns the number of steps for one slot.
+    #[inline]
     #[must_use]
     pub fn slot_steps(&self) -> u64 {
         self.phases.iter().map(|(_, steps)| steps).sum()
     }
 
     /// Returns the number of steps for a frame, J.
+    #[inline]
     #[must_use]
     pub fn steps(&self) -> u64 {
         u64::from(self.slots) * self.slot_steps()
@@ -143,12 +146,14 @@ impl SerialTiming {
     }
 
     /// Returns the edges from T0 to the edge before the clock of step `j` (0..J), 1 + Q + j.
+    #[inline]
     #[must_use]
     pub fn edges_to_step(&self, j: u64) -> u64 {
         1 + u64::from(self.read_latency) + j
     }
 
     /// Returns the edges from T0 to the edge after which the array is ready again, 1 + J.
+    #[inline]
     #[must_use]
     pub fn edges_to_ready(&self) -> u64 {
         1 + self.steps()

@@ -4,9 +4,9 @@
 use std::io::Cursor;
 use std::path::Path;
 
-use image::{DynamicImage, ImageBuffer, ImageDecoder as _, ImageReader};
+use image::{DynamicImage, ImageBuffer, ImageDecoder as _, ImageFormat, ImageReader};
 
-use super::{decoder_error, luma_samples, supported_format};
+use super::{decoder_error, jpeg, luma_samples, supported_format};
 use crate::bayer::{BayerPattern, MIN_MOSAIC_SIDE, luma_of_mosaic};
 use crate::{FootageError, InputOptions, Orientation};
 
@@ -48,10 +48,13 @@ fn orientation_of(bytes: &[u8], path: &Path) -> Result<image::metadata::Orientat
     let Some(format) = supported_format(bytes) else {
         return Ok(image::metadata::Orientation::NoTransforms);
     };
-    let decoder = ImageReader::with_format(Cursor::new(bytes), format).into_decoder();
-    decoder
-        .and_then(|mut decoder| decoder.orientation())
-        .map_err(|error| decoder_error(path, &error))
+    let orientation = if format == ImageFormat::Jpeg {
+        jpeg::orientation(bytes)
+    } else {
+        let decoder = ImageReader::with_format(Cursor::new(bytes), format).into_decoder();
+        decoder.and_then(|mut decoder| decoder.orientation())
+    };
+    orientation.map_err(|error| decoder_error(path, &error))
 }
 
 /// Returns the luma of a mosaic as a grey image of the same depth.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The check that a JPEG is complete. Decoders are lenient with this format: they fill missing or
+//! The decoder of JPEG and its check that a file is complete. Decoders are lenient with this format: they fill missing or
 //! wrong data with grey, or draw the wrong codes. This check follows the segments and the codes of
 //! every scan without computing a pixel, and refuses what the format does not allow.
 //!
@@ -11,11 +11,13 @@ mod bits;
 mod block;
 mod frame;
 mod huffman;
+mod pixels;
 mod scan;
 
 use self::bits::marker_at;
 use self::frame::{CodingProcess, FrameComponent, FrameHeader};
 use self::huffman::HuffmanTable;
+pub(super) use self::pixels::{decode, orientation, width};
 use self::scan::{HuffmanTables, ScanHeader};
 use super::damage::PictureFault;
 
