@@ -154,7 +154,7 @@ fn faults_of_a_large_frame_are_found_by_the_default_runs_and_by_the_bench() {
     let sound = verilog(&design, Top::Rcm);
     assert!(!is_found_by_bench(&bench, &sound), "no fault, and yet the bench fails");
     let output = tempfile::tempdir().unwrap();
-    let failures = in_parallel(&sample(FAULTS, 7), |&fault| {
+    let failures = in_parallel(&sample(FAULTS, 8), |&fault| {
         let LargeFrameFault { description: what, file, from, to } = fault;
         let mut files = sound.clone();
         let edited = files.iter_mut().find(|source| source.path == *file);
