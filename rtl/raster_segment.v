@@ -52,7 +52,7 @@ module raster_segment #(
     // The pixels of a word beyond the bounds, and their number in the region.
     reg [LANES-1:0] above_q, below_q;
     reg [COUNT_BITS-1:0] above, below, above_count_q, below_count_q;
-    integer lane;
+    integer lane, pixel;
     always @* begin
         above = first_i ? {COUNT_BITS{1'b0}} : above_count_q;
         below = first_i ? {COUNT_BITS{1'b0}} : below_count_q;
@@ -67,9 +67,9 @@ module raster_segment #(
     wire [COUNT_BITS-1:0] smaller = above_count_q < below_count_q ? above_count_q : below_count_q;
     /* verilator lint_on UNUSEDSIGNAL */
     always @(posedge clk_i) begin
-        for (lane = 0; lane < LANES; lane = lane + 1) begin
-            above_q[lane] <= !high[WIDTH] && word_i[lane*WIDTH+:WIDTH] > high[WIDTH-1:0];
-            below_q[lane] <= !low[WIDTH] && {word_i[lane*WIDTH+:WIDTH], 1'b0} < {low[WIDTH-1:0], fraction};
+        for (pixel = 0; pixel < LANES; pixel = pixel + 1) begin
+            above_q[pixel] <= !high[WIDTH] && word_i[pixel*WIDTH+:WIDTH] > high[WIDTH-1:0];
+            below_q[pixel] <= !low[WIDTH] && {word_i[pixel*WIDTH+:WIDTH], 1'b0} < {low[WIDTH-1:0], fraction};
         end
         if (step_i) begin
             above_count_q <= above;

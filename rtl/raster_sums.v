@@ -31,7 +31,8 @@ module raster_sums #(
     reg fresh_q;  // the next word is the first of a row of its region
     reg ended_q, top_q;
     reg [COLUMN_BITS-1:0] column_q, old_column_q;
-    integer each;
+    // Each process has a loop variable of its own: tools take one that two of them share for a register with two drivers.
+    integer each, sum;
 
     always @(posedge clk_i) begin
         ended_q      <= step_i && segment_end_i && !rst_i;
@@ -68,9 +69,9 @@ module raster_sums #(
     );
 
     always @(posedge clk_i) begin
-        for (each = 0; each < VALUES; each = each + 1)
-            sums_o[each*SUM_BITS+:SUM_BITS] <= row[each*SUM_BITS+:SUM_BITS]
-                + (top ? {SUM_BITS{1'b0}} : above[each*SUM_BITS+:SUM_BITS]);
+        for (sum = 0; sum < VALUES; sum = sum + 1)
+            sums_o[sum*SUM_BITS+:SUM_BITS] <= row[sum*SUM_BITS+:SUM_BITS]
+                + (top ? {SUM_BITS{1'b0}} : above[sum*SUM_BITS+:SUM_BITS]);
         written_q      <= ended && !rst_i;
         write_column_q <= column;
     end

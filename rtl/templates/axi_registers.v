@@ -103,8 +103,8 @@ module {= module =} (
     assign {= output.0 =}_o = {= output.1 =};
 {%- endfor %}
 {%- for field in external_fields %}
-    assign {= field.name =}_o = wdata_i{= field.range =};
-    assign {= field.name =}_write_o = write_q && written == 10'd{= field.word =} && &wstrb_i;
+    assign {= field.name =}_o = {= field.value =};
+    assign {= field.name =}_write_o = write_q && written == 10'd{= field.word =}{% if field.needs_all_bytes %} && &wstrb_i{% endif %};
 {%- endfor %}
 {%- if !has_window %}
     assign interrupt_o = {% for event in events %}{% if !loop.first %} || {% endif %}(events_{= event.name =}_q && interrupt_enable_{= event.name =}_q){% endfor %};

@@ -211,7 +211,7 @@ def iverilog(files, cwd, top):
 
 
 def yosys(files, cwd, top):
-    script = f"read_verilog {' '.join(files)}; hierarchy -check -top {top}; proc; opt_clean; check -assert"
+    script = f"read_verilog {' '.join(files)}; hierarchy -check -top {top}; proc; check -assert"
     code, text = run([YOSYS, "-p", script], cwd)
     return code, lines_of(text, r"^(Warning|ERROR)"), text
 

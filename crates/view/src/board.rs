@@ -219,7 +219,7 @@ fn may_change(field: &RegisterField) -> bool {
         FieldKind::Status
         | FieldKind::Control { .. }
         | FieldKind::Threshold { .. }
-        | FieldKind::External
+        | FieldKind::External { .. }
         | FieldKind::Event => true,
         FieldKind::Constant(_) | FieldKind::Command => false,
     }
@@ -229,7 +229,7 @@ fn may_be_written(field: &RegisterField) -> bool {
     match field.kind {
         FieldKind::Threshold { .. }
         | FieldKind::Control { .. }
-        | FieldKind::External
+        | FieldKind::External { .. }
         | FieldKind::Command
         | FieldKind::Event => true,
         FieldKind::Constant(_) | FieldKind::Status => false,
@@ -242,7 +242,7 @@ fn kind_name(kind: &FieldKind) -> &'static str {
         FieldKind::Status => "status",
         FieldKind::Control { .. } => "control",
         FieldKind::Threshold { .. } => "threshold",
-        FieldKind::External => "external",
+        FieldKind::External { .. } => "external",
         FieldKind::Command => "command",
         FieldKind::Event => "event",
     }

@@ -489,14 +489,14 @@ impl<'a> SceneBuilder<'a> {
                 let mask = match register.name.as_str() {
                     "control" | "events" | "interrupt_test" => continue,
                     // These have scenes of their own.
-                    _ if is_class_register(register) => continue,
+                    "zone_word" | "zone_control" => continue,
                     _ => writable_mask(register) & bytes,
                 };
                 value = (value & !mask) | (data & mask);
                 traffic.write_bytes(register.address, data, strobes);
                 traffic.read(register.address, ExpectedRead::Value(value));
             }
-            if !is_class_register(register) {
+            if writable_mask(register) != 0 {
                 traffic.write_bytes(register.address, reset_value(register), ALL_BYTES);
             }
             traffic.read(register.address, ExpectedRead::Value(reset_value(register)));
@@ -690,14 +690,16 @@ fn reset_value(register: &Register) -> u32 {
 /// Returns the mask of the register bits that keep a written value.
 fn writable_mask(register: &Register) -> u32 {
     register.fields.iter().fold(0, |mask, field| match field.kind {
-        FieldKind::Control { .. } | FieldKind::Threshold { .. } => {
+        FieldKind::Control { .. }
+        | FieldKind::Threshold { .. }
+        | FieldKind::External { by_bytes: true } => {
             mask | u32::MAX >> (u32::BITS - field.width) << field.low
         }
         FieldKind::Constant(_)
         | FieldKind::Status
         | FieldKind::Command
         | FieldKind::Event
-        | FieldKind::External => mask,
+        | FieldKind::External { by_bytes: false } => mask,
     })
 }
 

@@ -98,7 +98,7 @@ pub(super) fn system_rdl(banner: &str, registers: &[Register]) -> String {
             let access = match field.kind {
                 FieldKind::Constant(_) | FieldKind::Status => "sw = r; hw = w;",
                 FieldKind::Control { .. } | FieldKind::Threshold { .. } => "sw = rw; hw = r;",
-                FieldKind::External => "sw = rw; hw = rw;",
+                FieldKind::External { .. } => "sw = rw; hw = rw;",
                 FieldKind::Command => "sw = w; hw = r; singlepulse;",
                 FieldKind::Event => "sw = rw; hw = w; woclr; hwset;",
             };
@@ -145,9 +145,9 @@ fn tcl_register(register: &Register) -> String {
     let field = |field: &RegisterField| {
         let (access, written) = match field.kind {
             FieldKind::Constant(_) | FieldKind::Status => ("read-only", "modify"),
-            FieldKind::Control { .. } | FieldKind::Threshold { .. } | FieldKind::External => {
-                ("read-write", "modify")
-            }
+            FieldKind::Control { .. }
+            | FieldKind::Threshold { .. }
+            | FieldKind::External { .. } => ("read-write", "modify"),
             FieldKind::Command => ("write-only", "modify"),
             FieldKind::Event => ("read-write", "oneToClear"),
         };

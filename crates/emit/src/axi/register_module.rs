@@ -50,7 +50,9 @@ struct ByteWrite {
 struct ExternalField {
     name: String,
     word: u32,
-    range: String,
+    /// The expression of the value that the core takes.
+    value: String,
+    needs_all_bytes: bool,
 }
 
 struct EventBit {
@@ -136,15 +138,20 @@ impl RegisterModule {
                     self.add_output(&name, field);
                 }
             }
-            FieldKind::External => {
+            FieldKind::External { by_bytes } => {
                 self.add_port("input ", field.width, &format!("{name}_i"), &field.doc);
                 self.add_port("output", field.width, &format!("{name}_o"), &field.doc);
                 let doc = format!("{name}_o is written");
                 self.add_port("output", 1, &format!("{name}_write_o"), &doc);
                 self.external_fields.push(ExternalField {
-                    name,
                     word: register.address / 4,
-                    range: format!("[{}:{}]", field.low + field.width - 1, field.low),
+                    value: if by_bytes {
+                        merged_bytes(field, &name)
+                    } else {
+                        format!("wdata_i[{}:{}]", field.low + field.width - 1, field.low)
+                    },
+                    needs_all_bytes: !by_bytes,
+                    name,
                 });
             }
             FieldKind::Event => {
@@ -180,24 +187,44 @@ impl RegisterModule {
 
     /// Adds a write for each byte of a field, since each byte has a strobe of its own.
     fn add_writes(&mut self, register: &Register, field: &RegisterField, name: &str) {
-        let end = field.low + field.width;
-        let mut low = field.low;
-        while low < end {
-            let high = end.min(low / 8 * 8 + 8);
-            let bits = |from: u32| match (high - low, field.width) {
-                (1, 1) => String::new(),
-                (1, _) => format!("[{from}]"),
-                (width, _) => format!("[{}:{from}]", from + width - 1),
-            };
+        for (byte, own, written) in field_bytes(field) {
             self.writes.push(ByteWrite {
                 word: register.address / 4,
-                byte: low / 8,
-                target: format!("{name}_q{}", bits(low - field.low)),
-                range: if high - low == 1 { format!("[{low}]") } else { bits(low) },
+                byte,
+                target: format!("{name}_q{own}"),
+                range: written,
             });
-            low = high;
         }
     }
+}
+
+/// Returns the value of a field `name` of the core, in which the written bytes are replaced.
+fn merged_bytes(field: &RegisterField, name: &str) -> String {
+    let bytes = field_bytes(field).into_iter().rev();
+    let byte = |(byte, own, written): (u32, String, String)| {
+        format!("wstrb_i[{byte}] ? wdata_i{written} : {name}_i{own}")
+    };
+    format!("{{{}}}", bytes.map(byte).collect::<Vec<_>>().join(", "))
+}
+
+/// Returns the bytes of a register in which a field lies: the number of the byte, the range of its
+/// bits in the field, and that in the register.
+fn field_bytes(field: &RegisterField) -> Vec<(u32, String, String)> {
+    let end = field.low + field.width;
+    let mut parts = Vec::new();
+    let mut low = field.low;
+    while low < end {
+        let high = end.min(low / 8 * 8 + 8);
+        let bits = |from: u32| match (high - low, field.width) {
+            (1, 1) => String::new(),
+            (1, _) => format!("[{from}]"),
+            (width, _) => format!("[{}:{from}]", from + width - 1),
+        };
+        let written = if high - low == 1 { format!("[{low}]") } else { bits(low) };
+        parts.push((low / 8, bits(low - field.low), written));
+        low = high;
+    }
+    parts
 }
 
 /// Returns the signal name of a field: the names of register and field, or the name of the register
@@ -221,7 +248,7 @@ fn read_value(register: &Register) -> String {
         let name = signal_name(register, field);
         parts.push(match field.kind {
             FieldKind::Constant(value) => format!("{}'d{value}", field.width),
-            FieldKind::Status | FieldKind::External => format!("{name}_i"),
+            FieldKind::Status | FieldKind::External { .. } => format!("{name}_i"),
             FieldKind::Control { .. } | FieldKind::Threshold { .. } | FieldKind::Event => {
                 format!("{name}_q")
             }

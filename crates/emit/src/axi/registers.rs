@@ -30,9 +30,12 @@ pub enum FieldKind {
         /// The value after a reset.
         reset: u32,
     },
-    /// The core takes every written value if all strobes are 1. The field reads the value that the
-    /// core drives.
-    External,
+    /// The core itself keeps the value, and the field reads what the core drives.
+    External {
+        /// True if bytes are written one by one, and false if the core takes a value only if all
+        /// strobes are 1.
+        by_bytes: bool,
+    },
     /// Writing 1 triggers an action once; the field reads as 0.
     Command,
     /// The field becomes 1 when the event happens, and 0 when 1 is written to it.
@@ -45,7 +48,7 @@ impl FieldKind {
     pub fn access(&self) -> &'static str {
         match self {
             Self::Constant(_) | Self::Status => "read",
-            Self::Control { .. } | Self::Threshold { .. } | Self::External => "read, write",
+            Self::Control { .. } | Self::Threshold { .. } | Self::External { .. } => "read, write",
             Self::Command => "write 1",
             Self::Event => "read, write 1 to clear",
         }
@@ -58,7 +61,7 @@ impl FieldKind {
             Self::Constant(value)
             | Self::Control { reset: value }
             | Self::Threshold { reset: value } => Some(value),
-            Self::Command | Self::Event | Self::External => Some(0),
+            Self::Command | Self::Event | Self::External { .. } => Some(0),
             Self::Status => None,
         }
     }
@@ -287,13 +290,19 @@ fn class_registers(design: &Design) -> [Register; 3] {
             0x044,
             "zone_word",
             "writes a word of the map of classes",
-            vec![field("value", 0, CLASS_WORD_BITS, FieldKind::External, word)],
+            vec![field("value", 0, CLASS_WORD_BITS, FieldKind::External { by_bytes: false }, word)],
         ),
         register(
             0x048,
             "zone_address",
             "number of the word that is written next",
-            vec![field("value", 0, design.class_address_bits(), FieldKind::External, address)],
+            vec![field(
+                "value",
+                0,
+                design.class_address_bits(),
+                FieldKind::External { by_bytes: true },
+                address,
+            )],
         ),
         register(
             0x04C,

@@ -63,7 +63,7 @@ fn registers_and_fields_have_places_and_names_of_their_own() {
                     FieldKind::Status
                     | FieldKind::Command
                     | FieldKind::Event
-                    | FieldKind::External => {}
+                    | FieldKind::External { .. } => {}
                 }
             }
             assert!(end <= 32, "{register:?}");

@@ -53,14 +53,15 @@ module raster_moments #(
             reg [LANES*SQUARE_BITS-1:0] squares_q;
             reg [WORD_SQUARE_BITS-1:0] word_square, word_square_2q;
             wire [SQUARE_SUM_BITS-1:0] square_sum;
+            integer square, pixel;
             always @* begin
                 word_square = {WORD_SQUARE_BITS{1'b0}};
-                for (lane = 0; lane < LANES; lane = lane + 1)
-                    word_square = word_square + {{(WORD_SQUARE_BITS - SQUARE_BITS) {1'b0}}, squares_q[lane*SQUARE_BITS+:SQUARE_BITS]};
+                for (square = 0; square < LANES; square = square + 1)
+                    word_square = word_square + {{(WORD_SQUARE_BITS - SQUARE_BITS) {1'b0}}, squares_q[square*SQUARE_BITS+:SQUARE_BITS]};
             end
             always @(posedge clk_i) begin
-                for (lane = 0; lane < LANES; lane = lane + 1)
-                    squares_q[lane*SQUARE_BITS+:SQUARE_BITS] <= word_i[lane*WIDTH+:WIDTH] * word_i[lane*WIDTH+:WIDTH];
+                for (pixel = 0; pixel < LANES; pixel = pixel + 1)
+                    squares_q[pixel*SQUARE_BITS+:SQUARE_BITS] <= word_i[pixel*WIDTH+:WIDTH] * word_i[pixel*WIDTH+:WIDTH];
                 word_square_2q <= word_square;
             end
             raster_sums #(
