@@ -63,6 +63,7 @@ def explain(
     resize: tuple[int, int] | None = None,
     luma: Luma | None = None,
     orientation: Orientation | None = None,
+    video_stream: int | None = None,
     raw: str | None = None,
     bayer: Bayer | None = None,
     timestamps: PathLike | None = None,
@@ -82,7 +83,7 @@ def explain(
         Number of the frame.
     region : (int, int), default (0, 0)
         Column and row of the region.
-    max_frames, input_fps, rate, start, end, crop, resize, luma, orientation, raw, bayer, timestamps, timestamp_unit, images, labels : optional
+    max_frames, input_fps, rate, start, end, crop, resize, luma, orientation, video_stream, raw, bayer, timestamps, timestamp_unit, images, labels : optional
         How inputs are read, see ``simulate``.
 
     Returns
@@ -99,7 +100,7 @@ def explain(
     """
     values, text = _foveate.explain(
         inputs, camera, frame=frame, region=region, max_frames=max_frames, input_fps=input_fps, rate=rate, start=start, end=end,
-        crop=crop, resize=resize, luma=luma, orientation=orientation, raw=raw, bayer=bayer,
+        crop=crop, resize=resize, luma=luma, orientation=orientation, video_stream=video_stream, raw=raw, bayer=bayer,
         timestamps=timestamps, timestamp_unit=timestamp_unit, images=images, labels=labels,
     )
     return Explanation(json.loads(values), text)
@@ -120,6 +121,7 @@ def fidelity(
     resize: tuple[int, int] | None = None,
     luma: Luma | None = None,
     orientation: Orientation | None = None,
+    video_stream: int | None = None,
     raw: str | None = None,
     bayer: Bayer | None = None,
     timestamps: PathLike | None = None,
@@ -137,7 +139,7 @@ def fidelity(
         The design to measure.
     ideal : Camera, Design, preset, file or dict, optional
         The ideal design. The default is ``camera`` itself, so that only its rounding and its windows are measured.
-    max_frames, input_fps, rate, start, end, crop, resize, luma, orientation, raw, bayer, timestamps, timestamp_unit, images, labels : optional
+    max_frames, input_fps, rate, start, end, crop, resize, luma, orientation, video_stream, raw, bayer, timestamps, timestamp_unit, images, labels : optional
         How inputs are read, see ``simulate``.
 
     Returns
@@ -148,7 +150,7 @@ def fidelity(
     """
     values, problem = _foveate.fidelity(
         inputs, camera, ideal=ideal, max_frames=max_frames, input_fps=input_fps, rate=rate, start=start, end=end, crop=crop,
-        resize=resize, luma=luma, orientation=orientation, raw=raw, bayer=bayer,
+        resize=resize, luma=luma, orientation=orientation, video_stream=video_stream, raw=raw, bayer=bayer,
         timestamps=timestamps, timestamp_unit=timestamp_unit, images=images, labels=labels,
     )
     return Fidelity(json.loads(values), problem)
@@ -170,6 +172,7 @@ def pixel_events(
     resize: tuple[int, int] | None = None,
     luma: Luma | None = None,
     orientation: Orientation | None = None,
+    video_stream: int | None = None,
     raw: str | None = None,
     bayer: Bayer | None = None,
     timestamps: PathLike | None = None,
@@ -191,7 +194,7 @@ def pixel_events(
         is ``temporal.level`` + 1, or 0.2 with ``log``.
     log : bool, default False
         Take the logarithms of pixels.
-    max_frames, input_fps, rate, start, end, crop, resize, luma, orientation, raw, bayer, timestamps, timestamp_unit, images, labels : optional
+    max_frames, input_fps, rate, start, end, crop, resize, luma, orientation, video_stream, raw, bayer, timestamps, timestamp_unit, images, labels : optional
         How inputs are read, see ``simulate``. Frames from arrays have the times of ``rate`` (30 frames per second).
 
     Returns
@@ -217,7 +220,7 @@ def pixel_events(
     """
     records = _foveate.pixel_event_records(
         inputs, camera, contrast, log, max_frames=max_frames, input_fps=input_fps, rate=rate, start=start, end=end, crop=crop,
-        resize=resize, luma=luma, orientation=orientation, raw=raw, bayer=bayer,
+        resize=resize, luma=luma, orientation=orientation, video_stream=video_stream, raw=raw, bayer=bayer,
         timestamps=timestamps, timestamp_unit=timestamp_unit, images=images, labels=labels,
     )
     return records.view(_PIXEL_EVENT)
@@ -308,6 +311,7 @@ def infer(
     resize: tuple[int, int] | None = None,
     luma: Luma | None = None,
     orientation: Orientation | None = None,
+    video_stream: int | None = None,
     raw: str | None = None,
     bayer: Bayer | None = None,
     timestamps: PathLike | None = None,
@@ -356,7 +360,7 @@ def infer(
         Write the outputs that are pictures as image files, too.
     force : bool, default False
         Replace ``output`` if it holds a result.
-    max_frames, input_fps, rate, start, end, crop, resize, luma, orientation, raw, bayer, timestamps, timestamp_unit, images, labels : optional
+    max_frames, input_fps, rate, start, end, crop, resize, luma, orientation, video_stream, raw, bayer, timestamps, timestamp_unit, images, labels : optional
         How inputs are read, see ``simulate``.
 
     Returns
@@ -376,7 +380,7 @@ def infer(
     options: dict[str, Any] = dict(
         mode=mode, tune=tune, reference=reference, accelerator=accelerator, mean=mean, scale=scale, framing=framing,
         whole_frames=whole_frames, noise=noise, every=every, detect=detect, boxes=boxes, pictures=pictures, force=force, max_frames=max_frames,
-        input_fps=input_fps, rate=rate, start=start, end=end, crop=crop, resize=resize, luma=luma, orientation=orientation, raw=raw, bayer=bayer,
+        input_fps=input_fps, rate=rate, start=start, end=end, crop=crop, resize=resize, luma=luma, orientation=orientation, video_stream=video_stream, raw=raw, bayer=bayer,
         timestamps=timestamps, timestamp_unit=timestamp_unit, images=images, labels=labels,
     )
     if output is not None:

@@ -296,7 +296,7 @@ impl Camera {
     ///     for the displacements of `flow`.
     /// progress : bool, optional
     ///     Show a line of progress on standard error. The default shows it on a terminal and in a notebook.
-    /// max_frames, input_fps, rate, start, end, crop, resize, luma, orientation, raw, bayer, timestamps, timestamp_unit, images, labels : optional
+    /// max_frames, input_fps, rate, start, end, crop, resize, luma, orientation, video_stream, raw, bayer, timestamps, timestamp_unit, images, labels : optional
     ///     How inputs are read, see `foveate.simulate`. Frames from arrays have the times of `rate` (30 frames per second).
     ///
     /// Returns
@@ -330,7 +330,7 @@ impl Camera {
     #[pyo3(
         signature = (inputs, *, rendered=true, progress=None, **options),
         text_signature = "($self, inputs, *, rendered=True, progress=None, max_frames=None, input_fps=None, rate=None, start=None, end=None, \
-                          crop=None, resize=None, luma=None, orientation=None, raw=None, bayer=None, \
+                          crop=None, resize=None, luma=None, orientation=None, video_stream=None, raw=None, bayer=None, \
                       timestamps=None, timestamp_unit=None, images=None, labels=None)"
     )]
     fn run<'py>(

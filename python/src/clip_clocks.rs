@@ -31,7 +31,7 @@ use crate::work::{CancelFlag, interruptible};
 ///     neither used nor changed.
 /// clock_hz, sink_rate, sink_stalls : optional
 ///     The clock of the core and the sink of its words, see `TimedCamera`.
-/// max_frames, input_fps, rate, start, end, crop, resize, luma, orientation, raw, bayer, timestamps, timestamp_unit, images, labels : optional
+/// max_frames, input_fps, rate, start, end, crop, resize, luma, orientation, video_stream, raw, bayer, timestamps, timestamp_unit, images, labels : optional
 ///     How inputs are read, see `simulate`. Frames from arrays have the times of `rate` (30 frames per second).
 ///
 /// Returns
@@ -58,7 +58,7 @@ use crate::work::{CancelFlag, interruptible};
 #[pyo3(
     signature = (inputs, camera=None, *, clock_hz=None, sink_rate=None, sink_stalls=None, **options),
     text_signature = "(inputs, camera=None, *, clock_hz=None, sink_rate=None, sink_stalls=None, max_frames=None, input_fps=None, \
-                      rate=None, start=None, end=None, crop=None, resize=None, luma=None, orientation=None, raw=None, bayer=None, \
+                      rate=None, start=None, end=None, crop=None, resize=None, luma=None, orientation=None, video_stream=None, raw=None, bayer=None, \
                       timestamps=None, timestamp_unit=None, images=None, labels=None)"
 )]
 #[allow(clippy::too_many_arguments, reason = "they are the arguments of the function in Python")]

@@ -17,6 +17,7 @@ use pyo3::prelude::*;
 use crate::array::untyped;
 use crate::error::{raise, value_error};
 use crate::frame::Grey;
+use crate::options::input_warnings;
 
 /// The name of frames from arrays in results.
 pub(crate) const ARRAY_NAME: &str = "array";
@@ -49,12 +50,14 @@ pub(crate) fn problem_text(player: &ClipPlayer) -> Option<String> {
     Some(format!("{}: {problem}", player.inputs().join(", ")))
 }
 
-/// Warns of the error that ended a clip before its end, if there is one.
+/// Warns of the error that ended a clip before its end, if there is one, and of what was found while
+/// inputs were read.
 pub(crate) fn warn_of_problem(py: Python<'_>, problem: Option<String>) -> PyResult<()> {
-    problem.map_or(Ok(()), |problem| {
-        let text = CString::new(problem).unwrap_or_default();
-        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)
-    })
+    for sentence in input_warnings().take().into_iter().chain(problem) {
+        let text = CString::new(sentence).unwrap_or_default();
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)?;
+    }
+    Ok(())
 }
 
 /// The inputs of a function that takes footage or arrays.

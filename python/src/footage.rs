@@ -167,6 +167,8 @@ impl RunState {
 ///     The range of the luma of video: as it was coded (default), or expanded to all values.
 /// orientation : {"stored", "upright"}, optional
 ///     Orientation of images and video: as they are stored (default), or upright, as their marks say.
+/// video_stream : int, optional
+///     Video stream that is read of a file with several, from 0. By default it is the one that players take.
 /// raw : str, optional
 ///     Size and pixel format of raw video, such as "640x480,gray16le".
 /// bayer : {"rggb", "bggr", "grbg", "gbrg"}, optional
@@ -201,7 +203,7 @@ impl RunState {
 #[pyo3(
     signature = (inputs, camera=None, **options),
     text_signature = "(inputs, camera=None, *, max_frames=None, input_fps=None, rate=None, start=None, end=None, crop=None, \
-                      resize=None, luma=None, orientation=None, raw=None, bayer=None, \
+                      resize=None, luma=None, orientation=None, video_stream=None, raw=None, bayer=None, \
                       timestamps=None, timestamp_unit=None, images=None, labels=None)"
 )]
 pub(crate) fn simulate(

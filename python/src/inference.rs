@@ -15,7 +15,7 @@ use pyo3::exceptions::{PyIsADirectoryError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::clip_inputs::{ARRAY_NAME, ClipInputs, paths};
+use crate::clip_inputs::{ARRAY_NAME, ClipInputs, paths, warn_of_problem};
 use crate::config;
 use crate::error::raise;
 use crate::options::input_options;
@@ -163,5 +163,6 @@ pub(crate) fn infer(
         .map_err(raise)?;
         inference.run(&output, &chosen, &CancelFlag(cancel)).map_err(raise)
     })??;
+    warn_of_problem(py, None)?;
     json(&summary)
 }

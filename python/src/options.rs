@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Options by name: which of them a function has, and which one was probably meant by an unknown name.
 
+use std::sync::LazyLock;
+
 use foveate_footage::{
-    BayerPattern, CropRect, FrameRate, ImageRelation, InputOptions, LumaRange, Orientation,
-    RawLayout, TimestampUnit, TimestampsFile, parse_time,
+    BayerPattern, CropRect, FrameRate, ImageRelation, InputOptions, InputWarnings, LumaRange,
+    Orientation, RawLayout, TimestampUnit, TimestampsFile, parse_time,
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyFloat};
 
 /// The options of all functions that read footage, by their names on the command line.
-const INPUT: [&str; 15] = [
+const INPUT: [&str; 16] = [
     "max_frames",
     "input_fps",
     "rate",
@@ -20,6 +22,7 @@ const INPUT: [&str; 15] = [
     "resize",
     "luma",
     "orientation",
+    "video_stream",
     "raw",
     "bayer",
     "timestamps",
@@ -36,7 +39,7 @@ pub(crate) fn input_options(
     own: &[&str],
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<InputOptions> {
-    let mut found = InputOptions::default();
+    let mut found = InputOptions { warnings: input_warnings(), ..InputOptions::default() };
     let Some(options) = options else { return Ok(found) };
     for (name, value) in options.iter() {
         let name: String = name.extract()?;
@@ -53,6 +56,12 @@ pub(crate) fn input_options(
         )));
     }
     Ok(found)
+}
+
+/// Returns the warnings that inputs have found while they were read and that Python has not had yet.
+pub(crate) fn input_warnings() -> InputWarnings {
+    static WARNINGS: LazyLock<InputWarnings> = LazyLock::new(InputWarnings::default);
+    WARNINGS.clone()
 }
 
 /// Refuses an option that a function of the Python files does not have.
@@ -138,6 +147,11 @@ fn set(found: &mut InputOptions, name: &str, value: &Bound<'_, PyAny>) -> PyResu
                 "upright" => Orientation::Upright,
                 _ => return Err(wrong("expected \"stored\" or \"upright\"".into())),
             };
+        }
+        "video_stream" => {
+            let number =
+                value.extract().map_err(|_| wrong("expected a number from 0 on".into()))?;
+            found.video_stream = Some(number);
         }
         "raw" => found.raw = Some(RawLayout::parse(&text()?).map_err(wrong)?),
         "bayer" => {

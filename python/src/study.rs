@@ -5,7 +5,7 @@ use foveate_explore::compare;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::clip_inputs::ClipInputs;
+use crate::clip_inputs::{ClipInputs, warn_of_problem};
 use crate::config;
 use crate::error::{raise, value_error};
 use crate::options::input_options;
@@ -35,6 +35,7 @@ pub(crate) fn explain(
         let player = inputs.open(&config.camera, &options)?;
         foveate_simulator::explain_region(&config, player, frame, region).map_err(raise)
     })??;
+    warn_of_problem(py, None)?;
     Ok((json(&explanation)?, explanation.to_string()))
 }
 
@@ -59,5 +60,6 @@ pub(crate) fn fidelity(
         let player = inputs.open(&ideal.camera, &options)?;
         compare(player, &config.camera, &ideal.camera, &CancelFlag(cancel)).map_err(raise)
     })??;
+    warn_of_problem(py, None)?;
     Ok((json(&compared.figures)?, compared.problem))
 }

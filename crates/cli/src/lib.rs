@@ -36,7 +36,9 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
             return u8::try_from(error.exit_code()).expect("clap ends with 0 or 2");
         }
     };
-    let code = match run_command(&cli, &words) {
+    let result = run_command(&cli, &words);
+    notice::input_warnings().take().iter().for_each(|warning| notice::print_warning(warning));
+    let code = match result {
         Ok(()) => 0,
         Err(error) => {
             notice::print_notice(&error);

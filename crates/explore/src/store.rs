@@ -12,7 +12,7 @@ use foveate_camera::CameraConfig;
 use foveate_design::{Design, DesignConfig};
 use foveate_energy::ENERGY_FORMAT_VERSION;
 use foveate_estimate::SiliconReport;
-use foveate_footage::{ComparedInput, InputOptions, matched_images};
+use foveate_footage::{ComparedInput, ImageRelation, InputOptions, matched_images};
 use foveate_link::ArrayLink;
 use foveate_staging::write_file;
 use foveate_toolchain::sha256_hex;
@@ -137,7 +137,9 @@ pub(crate) fn clip_identity(subject: &ComparedInput, input: &InputOptions) -> St
         // files.
         match path.exists() {
             true => stamp_files(&mut text, path),
-            false => matched_images(path).iter().for_each(|file| stamp_file(&mut text, file)),
+            false => matched_images(path, ImageRelation::Clip)
+                .iter()
+                .for_each(|file| stamp_file(&mut text, file)),
         }
     }
     let further = [input.labels.as_deref(), input.timestamps.as_ref().map(|file| &*file.path)];

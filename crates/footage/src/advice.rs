@@ -2,7 +2,7 @@
 //! Warnings about inputs that can be read, but perhaps not as the user expects: some files are
 //! ignored, or a file looks like another kind of file.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use foveate_frame::Frame;
 
@@ -105,6 +105,24 @@ fn missing_labels_warning(path: &Path) -> String {
         "`{}` has no file of labels beside it{expected}, so its images have no labels; name one with --labels",
         path.display()
     )
+}
+
+/// Returns a warning if images, which have ground-truth boxes, are turned by their EXIF data, but are
+/// read as they are stored: boxes are mostly drawn on upright pictures.
+#[must_use]
+pub fn turned_images_warning(images: &[PathBuf]) -> Option<String> {
+    /// The number of images that are looked at.
+    const SAMPLE: usize = 64;
+    let sample = &images[..images.len().min(SAMPLE)];
+    let turned: Vec<_> = sample.iter().filter(|path| picture::is_turned(path)).collect();
+    let first = turned.first()?;
+    Some(format!(
+        "{} of the first {} images, such as `{}`, are turned by their EXIF data, and are read as they are stored; \
+         if the boxes were drawn on the upright pictures, add --orientation upright",
+        turned.len(),
+        sample.len(),
+        first.display()
+    ))
 }
 
 /// Warns of a CIFAR sheet that is read as a photograph, and of a photograph that is read as a

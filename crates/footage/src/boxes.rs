@@ -13,6 +13,7 @@ mod format;
 mod grid;
 mod image_name;
 mod labelled_box;
+mod left_out;
 mod limits;
 mod view;
 

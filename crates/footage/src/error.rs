@@ -97,8 +97,8 @@ pub enum FootageError {
     },
     /// An image of several frames is among other images.
     #[error(
-        "`{}` is an animated PNG among other images, where only its first frame would be read; simulate it on \
-         its own to read all frames, or save the frame that you need",
+        "`{}` holds several frames, as an animation or a stream of images does, and here only the first one would \
+         be read; simulate it on its own, as a clip, to read all frames, or save the frame that you need",
         path.display()
     )]
     Animated {

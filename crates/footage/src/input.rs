@@ -21,6 +21,7 @@ pub(crate) use content_kind::unread_image_type_by_content;
 pub(crate) use entry::{EntryKind, entries, entry_kind};
 pub use expansion::matched_images;
 pub(crate) use expansion::{expand, sequence_of};
+pub(crate) use file_kind::FileKind;
 pub(crate) use pattern::{is_pattern, skipped_by_pattern};
 pub(crate) use sequence::SequenceName;
 pub use skip_reason::{SkipReason, SkippedInput};
@@ -159,15 +160,15 @@ fn open_feed(
         images.append(&mut pictures);
         clips.append(&mut others);
     }
-    // An animated PNG on its own is a clip. Among other images only one of its frames would be
-    // read.
+    // An animated PNG and a stream of images are clips on their own. Among other images only one of
+    // their frames would be read.
     if let ([image], ImageRelation::Clip) = (images.as_slice(), options.images)
         && clips.is_empty()
-        && picture::is_animated(&image.path)
+        && let Some(kind) = picture::clip_kind(&image.path)
     {
-        clips.push((images.remove(0).path, file_kind::FileKind::Video));
+        clips.push((images.remove(0).path, kind));
     }
-    let idx = |(_, kind): &(PathBuf, file_kind::FileKind)| *kind == file_kind::FileKind::Idx;
+    let idx = |(_, kind): &(PathBuf, FileKind)| *kind == FileKind::Idx;
     if let (Some(labels), false) = (&options.labels, clips.iter().any(idx)) {
         return Err(labels_without_images(labels));
     }
@@ -246,21 +247,23 @@ fn open_images(
 
 fn open_file_feed(
     path: &Path,
-    kind: file_kind::FileKind,
+    kind: FileKind,
     bits: u32,
     options: &InputOptions,
 ) -> Result<Box<dyn FrameFeed>, FootageError> {
     Ok(match kind {
-        file_kind::FileKind::Idx => {
-            Box::new(IdxImages::open(path, options.labels.as_deref(), bits)?)
-        }
-        file_kind::FileKind::CifarBatch => Box::new(CifarBatch::open(path, bits)?),
-        file_kind::FileKind::Y4m => {
+        FileKind::Idx => Box::new(IdxImages::open(path, options.labels.as_deref(), bits)?),
+        FileKind::CifarBatch => Box::new(CifarBatch::open(path, bits)?),
+        FileKind::Y4m => {
             let name = path.display().to_string();
             Box::new(open_y4m(name, open_unpacked(path)?, bits, options)?)
         }
-        file_kind::FileKind::Zip => Box::new(open_zip(path, bits, options)?),
-        file_kind::FileKind::Video => {
+        FileKind::Zip => Box::new(open_zip(path, bits, options)?),
+        FileKind::ImageStream(kind) => {
+            let medium = VideoMedium::ImageStream(path.to_owned(), kind);
+            Box::new(VideoFeed::open(medium, bits, 0, options)?)
+        }
+        FileKind::Video => {
             let sought = options.selection.start_us.filter(|_| !options.numbered);
             let start = sought.unwrap_or(0);
             let medium = VideoMedium::File(path.to_owned());

@@ -31,10 +31,11 @@ mod source;
 mod stream;
 mod timestamps;
 mod video;
+mod warnings;
 mod y4m;
 
 pub use address::{input_without_secrets, text_without_secrets};
-pub use advice::{input_warnings, skipped_in_words, skipped_inputs};
+pub use advice::{input_warnings, skipped_in_words, skipped_inputs, turned_images_warning};
 pub use bayer::BayerPattern;
 pub use class_map::read_class_map;
 pub use compared_input::{ComparedInput, subjects};
@@ -54,3 +55,4 @@ pub use source::selection::{FrameSelection, parse_time};
 pub use source::set_form::{IdxFile, SetFiles, SetForm, SetLabels};
 pub use source::{FrameOrigin, FrameSource, SourceFrame, SourceKind};
 pub use timestamps::{TimestampUnit, TimestampsFile};
+pub use warnings::InputWarnings;

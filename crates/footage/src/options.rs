@@ -10,6 +10,7 @@ use crate::limits::CropRect;
 use crate::raw_layout::RawLayout;
 use crate::source::selection::FrameSelection;
 use crate::timestamps::TimestampsFile;
+use crate::warnings::InputWarnings;
 use crate::{FrameRate, LumaRange, Orientation};
 
 /// The relation between image files.
@@ -48,6 +49,9 @@ pub struct InputOptions {
     pub orientation: Orientation,
     /// The file with the times of the frames of images and of raw video.
     pub timestamps: Option<TimestampsFile>,
+    /// The number of the video stream that is read, among those of a file, from 0. Without it, the
+    /// stream that players take is read.
+    pub video_stream: Option<usize>,
     /// The relation between image files.
     pub images: ImageRelation,
     /// The labels of an IDX file, if they are not beside it under their usual name.
@@ -58,4 +62,6 @@ pub struct InputOptions {
     /// The request that ends every wait for frames with
     /// [`FootageError::Interrupted`](crate::FootageError::Interrupted).
     pub interrupt: Interrupt,
+    /// The warnings that are found while frames are read.
+    pub warnings: InputWarnings,
 }

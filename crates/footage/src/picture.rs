@@ -15,6 +15,7 @@ mod damage;
 mod jpeg;
 mod png;
 mod pnm;
+mod stream;
 
 use std::fs::File;
 use std::io::{Cursor, Read};
@@ -26,8 +27,9 @@ use image::{DynamicImage, ImageFormat, ImageReader, Limits};
 
 pub(crate) use self::conversion::ImageConversion;
 use self::damage::PictureFault;
+pub(crate) use self::stream::StreamKind;
 use crate::FootageError;
-use crate::input::unread_image_type_by_content;
+use crate::input::{FileKind, unread_image_type_by_content};
 use crate::limits::{MAX_FILE_GIB, MAX_SIDE};
 use foveate_frame::{convert_depth, luma};
 
@@ -88,7 +90,8 @@ fn decode_image(bytes: &[u8], path: &Path) -> Result<DynamicImage, FootageError>
         ImageFormat::Jpeg => jpeg::check(bytes).map_err(refused)?,
         _ => {}
     }
-    if format == ImageFormat::Png && has_animation(bytes) {
+    if stream::stream_kind(bytes).is_some() || (format == ImageFormat::Png && has_animation(bytes))
+    {
         return Err(FootageError::Animated { path: path.to_owned() });
     }
     let mut limits = Limits::no_limits();
@@ -153,14 +156,26 @@ pub(crate) fn width(path: &Path) -> Option<u32> {
     }
 }
 
-/// Returns true if a file is an animated PNG.
-pub(crate) fn is_animated(path: &Path) -> bool {
-    // The chunk that announces an animation comes before the pixels, and the chunks before it are
-    // small.
+/// Returns true if the EXIF data of an image turn or mirror it.
+pub(crate) fn is_turned(path: &Path) -> bool {
+    // EXIF data come before the pixels.
     const HEAD: u64 = 1 << 20;
     let mut start = Vec::new();
     let read = open_file(path).map(|file| file.take(HEAD).read_to_end(&mut start));
-    matches!(read, Ok(Ok(_))) && has_animation(&start)
+    matches!(read, Ok(Ok(_))) && conversion::is_turned(&start, path)
+}
+
+/// Returns the kind of a file of several frames: an animated PNG, or a stream of images.
+pub(crate) fn clip_kind(path: &Path) -> Option<FileKind> {
+    /// The number of bytes in which the first image of a stream and the header of the second lie.
+    const HEAD: u64 = 1 << 28;
+    let mut start = Vec::new();
+    let read = open_file(path).map(|file| file.take(HEAD).read_to_end(&mut start));
+    match (read, stream::stream_kind(&start)) {
+        (Ok(Ok(_)), Some(kind)) => Some(FileKind::ImageStream(kind)),
+        (Ok(Ok(_)), None) => has_animation(&start).then_some(FileKind::Video),
+        _ => None,
+    }
 }
 
 /// Returns true if a PNG has a chunk `acTL` before its pixels.

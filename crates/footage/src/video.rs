@@ -15,12 +15,14 @@
 //! * Rotation is ignored, as is the EXIF orientation of images, unless [`Orientation::Upright`] is
 //!   wanted. Frames are turned here, because the filters of ffmpeg do not turn all pixel formats.
 
+mod clock;
 mod decoder;
 mod ffmpeg_log;
 mod formats;
 mod late_start;
 mod pixel_formats;
 mod probe;
+mod streams;
 mod truncated_avi;
 
 use std::path::{Path, PathBuf};
@@ -28,14 +30,18 @@ use std::path::{Path, PathBuf};
 use foveate_frame::ByteFrame;
 use foveate_toolchain::{Interrupt, Tool, Toolchain};
 
+use self::clock::VideoClock;
 use self::decoder::{DecodingParameters, StartPosition, VideoDecoder};
 use self::ffmpeg_log::AnnouncedFrame;
 use self::probe::VideoProperties;
 use crate::address::CameraAddress;
 use crate::orientation::FrameTurn;
+use crate::picture::StreamKind;
 use crate::samples::SampleLayout;
 use crate::source::feed::FrameFeed;
-use crate::{FootageError, FrameRate, InputOptions, LumaRange, Orientation, SourceFrame};
+use crate::{
+    FootageError, FrameRate, InputOptions, InputWarnings, LumaRange, Orientation, SourceFrame,
+};
 
 /// The time in microseconds after which ffmpeg gives up on a silent network camera.
 const NETWORK_TIMEOUT_US: &str = "10000000";
@@ -44,6 +50,8 @@ const NETWORK_TIMEOUT_US: &str = "10000000";
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum VideoMedium {
     File(PathBuf),
+    /// A file of images that follow each other.
+    ImageStream(PathBuf, StreamKind),
     /// A Video4Linux device.
     Camera(PathBuf),
     /// A network camera with its address.
@@ -66,6 +74,11 @@ impl VideoMedium {
                 let only = ["-protocol_whitelist", "file", "-format_whitelist", &allowed];
                 (words(&only), name("file:", path))
             }
+            Self::ImageStream(path, kind) => {
+                let demuxer = kind.demuxer();
+                let only = ["-protocol_whitelist", "file", "-format_whitelist", demuxer];
+                (words(&[&only[..], &["-f", demuxer]].concat()), name("file:", path))
+            }
             Self::Camera(path) => {
                 let only = ["-format_whitelist", "video4linux2,v4l2", "-f", "v4l2"];
                 (words(&only), name("", path))
@@ -85,7 +98,9 @@ impl VideoMedium {
     /// Returns the name in the form in which it may be shown, without a password.
     fn name(&self) -> String {
         match self {
-            Self::File(path) | Self::Camera(path) => path.display().to_string(),
+            Self::File(path) | Self::ImageStream(path, _) | Self::Camera(path) => {
+                path.display().to_string()
+            }
             Self::Network(address) => address.without_secrets(),
         }
     }
@@ -93,7 +108,7 @@ impl VideoMedium {
     /// Returns the error for a medium without a frame.
     fn no_frame_error(&self, problem: String) -> FootageError {
         match self.clone() {
-            Self::File(path) => FootageError::Video { path, problem },
+            Self::File(path) | Self::ImageStream(path, _) => FootageError::Video { path, problem },
             Self::Camera(path) => FootageError::Camera { path, problem },
             Self::Network(_) => FootageError::Network { url: self.name(), problem },
         }
@@ -115,6 +130,8 @@ pub(crate) struct VideoFeed {
     interrupt: Interrupt,
     bits: u32,
     rate: FrameRate,
+    clock: VideoClock,
+    warnings: InputWarnings,
     luma: LumaRange,
     turn: FrameTurn,
     /// True if the luma of the stream is expanded.
@@ -135,6 +152,7 @@ impl VideoFeed {
         options: &InputOptions,
     ) -> Result<Self, FootageError> {
         let &InputOptions { frame_rate: rate, luma, orientation, ref interrupt, .. } = options;
+        let warnings = options.warnings.clone();
         if medium.is_camera() && luma == LumaRange::Full {
             let problem = format!(
                 "the range of the camera `{}` is not known; leave the option out",
@@ -147,11 +165,12 @@ impl VideoFeed {
         // ffprobe.
         let (found, probe) = std::thread::scope(|scope| {
             let found = scope.spawn(|| tools.find(Tool::Ffmpeg));
-            let probe = VideoProperties::probe(&tools, &medium);
+            let probe = VideoProperties::probe(&tools, &medium, options.video_stream);
             (found.join(), probe)
         });
         let found = found.unwrap_or_else(|_| tools.find(Tool::Ffmpeg))?;
         let probe = probe?;
+        probe.stream_warning.iter().for_each(|warning| warnings.add(warning.clone()));
         let conversion = pixel_formats::conversion_filter(&probe.pixel_format);
         let is_expanded = luma == LumaRange::Full && probe.has_narrow_range();
         let turn = match orientation {
@@ -162,7 +181,13 @@ impl VideoFeed {
             })?,
         };
         let interrupt = interrupt.clone();
-        let ffmpeg = DecodingParameters { found, medium: medium.clone(), conversion, interrupt };
+        let ffmpeg = DecodingParameters {
+            found,
+            medium: medium.clone(),
+            stream: probe.stream,
+            conversion,
+            interrupt,
+        };
         let sought = late_start::start(&tools, &ffmpeg, &probe, start_us)?;
         let (decoder, first_pts) = match sought {
             Some(sought) => (sought.decoder, Some(sought.first_pts)),
@@ -176,6 +201,8 @@ impl VideoFeed {
             interrupt: ffmpeg.interrupt,
             bits,
             rate,
+            clock: VideoClock::new(rate),
+            warnings,
             luma,
             turn,
             is_expanded,
@@ -198,9 +225,11 @@ impl VideoFeed {
     /// Returns the time since the first frame in microseconds, by the container, or by the rate if
     /// the container gives the frame no time.
     fn time_us(&mut self, shown: &AnnouncedFrame) -> u64 {
-        let Some(pts) = shown.pts else { return self.rate.time_us(self.frames) };
-        let first = *self.first_pts.get_or_insert(pts);
-        self.decoder.time_us(first, pts)
+        let stated_us = match shown.pts {
+            None => self.rate.time_us(self.frames).into(),
+            Some(pts) => self.decoder.time_us(*self.first_pts.get_or_insert(pts), pts),
+        };
+        self.clock.time_us(self.frames, stated_us)
     }
 
     /// Determines the problem of the video, if any, once there are no more frames.
@@ -212,7 +241,7 @@ impl VideoFeed {
             }
             // Messages of ffmpeg repeat the address and its parts.
             VideoMedium::Network(address) => problem = problem.map(|text| address.redact(&text)),
-            VideoMedium::Camera(_) => {}
+            VideoMedium::Camera(_) | VideoMedium::ImageStream(..) => {}
         }
         if let Some(said) = problem.as_mut().filter(|said| said.contains("Impossible to convert")) {
             *said =
@@ -261,6 +290,9 @@ impl FrameFeed for VideoFeed {
     }
 
     fn stop(&mut self) {
+        if let Some(warning) = self.clock.warning(&self.medium.name()) {
+            self.warnings.add(warning);
+        }
         self.decoder.stop();
     }
 

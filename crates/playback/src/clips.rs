@@ -6,7 +6,10 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use foveate_camera::CameraConfig;
 use foveate_footage::boxes::{BoxFile, ClipToLabel, assign_boxes};
-use foveate_footage::{ComparedInput, InputOptions, input_without_secrets, is_read_once, subjects};
+use foveate_footage::{
+    ComparedInput, InputOptions, Orientation, input_without_secrets, is_read_once, matched_images,
+    subjects, turned_images_warning,
+};
 use foveate_frame::Rect;
 
 use crate::{ClipPlayer, InputError, PlaybackError, PlayedFrame};
@@ -81,6 +84,18 @@ impl RunClips {
             let clips = self.clips.iter();
             let clips = clips.map(|clip| ClipToLabel { name: &clip.name, input: &clip.inputs[0] });
             self.boxes = assign_boxes(files, &clips.collect::<Vec<_>>())?;
+            for (clip, boxes) in self.clips.iter().zip(&self.boxes) {
+                for input in &clip.inputs {
+                    let images = matched_images(input, self.options.images);
+                    boxes.check_images(&images)?;
+                    if self.options.orientation == Orientation::Stored {
+                        let warning = turned_images_warning(&images);
+                        warning.into_iter().for_each(|text| self.options.warnings.add(text));
+                    }
+                }
+            }
+            let left_out = self.boxes.iter().filter_map(|boxes| boxes.left_out_in_words());
+            left_out.for_each(|sentence| self.options.warnings.add(sentence));
         }
         Ok(self)
     }

@@ -77,12 +77,15 @@ pub enum StudyError {
     NoBoxes,
     /// There are no objects to count.
     #[error(
-        "`{clips}` has no object to count after its first frame; check --boxes, and use more \
-         frames, or --images set for unrelated images"
+        "`{clips}` has no object to count after its first frame{}; check --boxes, and use more \
+         frames, or --images set for unrelated images",
+        left_out.iter().map(|sentence| format!(": {sentence}")).collect::<String>()
     )]
     NoObjects {
         /// The names of the clips.
         clips: String,
+        /// Sentences about boxes that are left out.
+        left_out: Vec<String>,
     },
     /// A chart cannot be drawn.
     #[error(transparent)]

@@ -66,7 +66,7 @@ impl Study {
 }
 
 /// Refuses data sets in studies of change.
-fn refuse_data_sets<T>(study: Study, watched: &[ClipResult<T>]) -> Result<(), StudyError> {
+fn refuse_data_sets<T, G>(study: Study, watched: &[ClipResult<T, G>]) -> Result<(), StudyError> {
     match watched.iter().find(|clip| clip.kind == SourceKind::Set) {
         Some(set) => Err(StudyError::DataSet { name: set.name.clone(), study: study.name() }),
         None => Ok(()),

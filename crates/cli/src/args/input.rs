@@ -49,6 +49,10 @@ pub(crate) struct InputArgs {
     /// phones say
     #[arg(long, value_enum, value_name = "HOW", default_value = "stored")]
     pub(crate) orientation: OrientationChoice,
+    /// Video stream that is read of a file with several, from 0. Without it, the stream that players
+    /// take is read, and other streams are named
+    #[arg(long, value_name = "N")]
+    pub(crate) video_stream: Option<usize>,
     /// Read raw video of this size and pixel format, for example 640x480,gray16le, from a file, a pipe or -
     #[arg(long, value_name = "WxH,FORMAT", value_parser = RawLayout::parse)]
     pub(crate) raw: Option<RawLayout>,
@@ -177,6 +181,7 @@ impl InputArgs {
                 OrientationChoice::Stored => Orientation::Stored,
                 OrientationChoice::Upright => Orientation::Upright,
             },
+            video_stream: self.video_stream,
             raw: self.raw,
             bayer: self.bayer.map(BayerChoice::pattern),
             timestamps: self
@@ -192,6 +197,7 @@ impl InputArgs {
             labels: self.labels.clone(),
             numbered: false,
             interrupt: interrupt::stop_request(),
+            warnings: notice::input_warnings(),
         }
     }
 }

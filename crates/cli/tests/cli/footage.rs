@@ -143,7 +143,7 @@ fn an_animated_png_is_a_clip() {
     // The clip has all five frames, with the same pixels as the pictures.
     assert_eq!(scores("moving.png"), scores("frames"));
     fs::copy(dir.path().join("moving.png"), dir.path().join("frames/6.png")).unwrap();
-    let parts = ["`frames/6.png` is an animated PNG", "on its own"];
+    let parts = ["`frames/6.png` holds several frames", "on its own"];
     expect_failure(dir.path(), 2, &["simulate", "frames", "-o", "no"], &parts);
     expect_failure(dir.path(), 2, &["dataset", "frames", "-o", "no"], &parts);
 }

@@ -87,6 +87,21 @@ pub enum BoxError {
         /// The other image.
         other: PathBuf,
     },
+    /// An image has another size than the file states, so that its boxes would lie on other pixels.
+    #[error(
+        "`{}` states {}x{} for the image `{}`, which has {}x{}; its boxes would lie on other pixels{}",
+        path.display(), stated.0, stated.1, image.display(), size.0, size.1, size_advice(*size, *stated)
+    )]
+    ImageSize {
+        /// The path of the file.
+        path: PathBuf,
+        /// The path of the image.
+        image: PathBuf,
+        /// The width and height of the image as it is read.
+        size: (u32, u32),
+        /// The width and height that the file states.
+        stated: (u32, u32),
+    },
     /// An image has the number 0, but the frames of MOT are numbered from 1.
     #[error(
         "the image `{}` would be frame 0, but frames in `{}` begin at 1; rename the images so that they begin at 1",
@@ -108,4 +123,13 @@ pub enum BoxError {
         /// A text that describes the entries of the file, for the message.
         holds: String,
     },
+}
+
+/// Returns the end of a message about sizes that differ.
+fn size_advice(size: (u32, u32), stated: (u32, u32)) -> &'static str {
+    if size == (stated.1, stated.0) {
+        "; if the image is a turned photo, --orientation upright reads it as it was labelled"
+    } else {
+        "; use the images that were labelled"
+    }
 }

@@ -15,6 +15,7 @@ use super::error::BoxError;
 use super::format::{BoxFormat, coco, csv_table, mot, yolo};
 use super::image_name::path_endings;
 use super::labelled_box::LabelledBox;
+use super::left_out::LeftOutBoxes;
 use super::view::BoxView;
 use crate::{CropRect, FrameOrigin, SourceFrame};
 use foveate_frame::Rect;
@@ -50,6 +51,7 @@ pub struct BoxFile {
     path: PathBuf,
     format: BoxFormat,
     entries: BoxEntries,
+    left_out: LeftOutBoxes,
     /// The image that took the boxes of each name.
     assigned_images: Mutex<HashMap<String, PathBuf>>,
 }
@@ -57,9 +59,16 @@ pub struct BoxFile {
 #[derive(Debug)]
 enum BoxEntries {
     Numbers(BTreeMap<u64, Vec<LabelledBox>>),
-    Names(HashMap<String, Vec<LabelledBox>>),
+    Names(HashMap<String, ImageBoxes>),
     /// The entries are files of a folder, which are read when an image needs them.
     Folder,
+}
+
+/// The boxes of an image, and its width and height, if the file states them.
+#[derive(Debug, Default)]
+pub(crate) struct ImageBoxes {
+    pub(crate) size: Option<(u32, u32)>,
+    pub(crate) boxes: Vec<LabelledBox>,
 }
 
 impl BoxFile {
@@ -70,13 +79,15 @@ impl BoxFile {
     /// lines.
     pub fn read(path: &Path) -> Result<Self, BoxError> {
         let format = BoxFormat::detect(path)?;
+        let mut left_out = LeftOutBoxes::default();
         let entries = match format {
-            BoxFormat::Mot => BoxEntries::Numbers(mot::read(path)?),
-            BoxFormat::Coco => BoxEntries::Names(coco::read(path)?),
+            BoxFormat::Mot => BoxEntries::Numbers(mot::read(path, &mut left_out)?),
+            BoxFormat::Coco => BoxEntries::Names(coco::read(path, &mut left_out)?),
             BoxFormat::Csv => BoxEntries::Names(csv_table::read(path)?),
             BoxFormat::Yolo => BoxEntries::Folder,
         };
-        Ok(Self { path: path.to_owned(), format, entries, assigned_images: Mutex::default() })
+        let (path, assigned_images) = (path.to_owned(), Mutex::default());
+        Ok(Self { path, format, entries, left_out, assigned_images })
     }
 
     /// Returns the path of the file or folder.
@@ -91,6 +102,41 @@ impl BoxFile {
         self.format
     }
 
+    /// Reads the files of a YOLO folder for these images, so that a mistake is found before the frames
+    /// are read. Other formats have been read already.
+    ///
+    /// # Errors
+    /// Fails if a file cannot be read.
+    pub fn check_images<P: AsRef<Path>>(&self, images: &[P]) -> Result<(), BoxError> {
+        if !matches!(self.entries, BoxEntries::Folder) {
+            return Ok(());
+        }
+        for image in images {
+            if let Some(file) = yolo::find_file(&self.path, &path_endings(image.as_ref())) {
+                yolo::read(&file, (1, 1))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns a sentence about the boxes that are no objects, counted by reason, if there are any.
+    #[must_use]
+    pub fn left_out_in_words(&self) -> Option<String> {
+        self.left_out.in_words(&self.path)
+    }
+
+    /// Returns the number of boxes of frames behind this number, which is counted from 1. Boxes that
+    /// go by names belong to no frame behind another one.
+    #[must_use]
+    pub fn boxes_behind(&self, frame: u64) -> usize {
+        match &self.entries {
+            BoxEntries::Numbers(frames) => {
+                frames.range(frame + 1..).map(|(_, own)| own.len()).sum()
+            }
+            BoxEntries::Names(_) | BoxEntries::Folder => 0,
+        }
+    }
+
     /// Returns true if the boxes go by frame numbers and therefore belong to one clip.
     #[must_use]
     pub fn is_for_one_clip(&self) -> bool {
@@ -100,16 +146,22 @@ impl BoxFile {
     /// Returns the boxes of a frame.
     ///
     /// # Errors
-    /// Fails if a file of a YOLO folder cannot be read, a name fits two images, or an image has the
-    /// number 0 although frames are numbered from 1.
+    /// Fails if a file of a YOLO folder cannot be read, a name fits two images, an image has another
+    /// size than the file states, or an image has the number 0 although frames are numbered from 1.
     pub fn boxes_of_frame(&self, place: &FrameKey<'_>) -> Result<FrameBoxes, BoxError> {
         match &self.entries {
             BoxEntries::Numbers(frames) => Ok(frames.get(&self.frame_number(place)?).cloned()),
             BoxEntries::Names(images) => {
                 let found = path_endings(place.name)
                     .into_iter()
-                    .find_map(|name| images.get(&name).map(|boxes| (name, boxes.clone())));
-                found.map(|(name, boxes)| self.assign_name(name, place).map(|()| boxes)).transpose()
+                    .find_map(|name| images.get(&name).map(|image| (name, image)));
+                let Some((name, image)) = found else { return Ok(None) };
+                if let Some(stated) = image.size.filter(|&stated| stated != place.size) {
+                    let (path, image) = (self.path.clone(), place.name.to_owned());
+                    return Err(BoxError::ImageSize { path, image, size: place.size, stated });
+                }
+                self.assign_name(name, place)?;
+                Ok(Some(image.boxes.clone()))
             }
             BoxEntries::Folder => {
                 let Some(file) = yolo::find_file(&self.path, &path_endings(place.name)) else {
@@ -158,8 +210,11 @@ impl BoxFile {
         BoxError::NoEntry { path: self.path.clone(), clip: clip.to_owned(), holds }
     }
 
-    /// Returns the number of a frame, counted from 1.
-    fn frame_number(&self, place: &FrameKey<'_>) -> Result<u64, BoxError> {
+    /// Returns the number by which the boxes of a frame are found, counted from 1.
+    ///
+    /// # Errors
+    /// Fails if an image has the number 0.
+    pub fn frame_number(&self, place: &FrameKey<'_>) -> Result<u64, BoxError> {
         let stem = place.name.file_stem().and_then(|stem| stem.to_str());
         let digits = stem.filter(|stem| stem.bytes().all(|byte| byte.is_ascii_digit()));
         match digits.filter(|_| place.own_file).and_then(|digits| digits.parse().ok()) {

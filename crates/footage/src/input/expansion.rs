@@ -43,10 +43,10 @@ pub(crate) fn sequence_of(input: &Path) -> Option<(&str, SequenceName)> {
     (name.has_folder() || !is_pattern(text)).then_some((text, name))
 }
 
-/// Returns the images that a pattern or the name of numbered files matches.
+/// Returns the files that a folder, a pattern or the name of numbered images matches.
 #[must_use]
-pub fn matched_images(input: &Path) -> Vec<PathBuf> {
-    let files = expand(input, ImageRelation::Clip).unwrap_or_default();
+pub fn matched_images(input: &Path, images: ImageRelation) -> Vec<PathBuf> {
+    let files = expand(input, images).unwrap_or_default();
     files.into_iter().map(|file| file.path).collect()
 }
 

@@ -7,6 +7,7 @@ use std::path::Path;
 use super::content_kind::{ContentKind, content_kind_of};
 use crate::FootageError;
 use crate::extension::{is_video_name, unread_image_type_by_name};
+use crate::picture::StreamKind;
 use crate::sets::{cifar, idx, open_unpacked};
 use crate::y4m;
 
@@ -18,6 +19,8 @@ pub(crate) enum FileKind {
     Y4m,
     /// A ZIP archive of images.
     Zip,
+    /// Images of one size that follow each other directly.
+    ImageStream(StreamKind),
     /// Any file that ffmpeg can read.
     Video,
 }

@@ -57,6 +57,13 @@ fn orientation_of(bytes: &[u8], path: &Path) -> Result<image::metadata::Orientat
     orientation.map_err(|error| decoder_error(path, &error))
 }
 
+/// Returns true if the EXIF data of an image, of which only the beginning may be there, turn or
+/// mirror it.
+pub(super) fn is_turned(bytes: &[u8], path: &Path) -> bool {
+    let stored = image::metadata::Orientation::NoTransforms;
+    orientation_of(bytes, path).is_ok_and(|orientation| orientation != stored)
+}
+
 /// Returns the luma of a mosaic as a grey image of the same depth.
 fn grey_of_mosaic(
     image: DynamicImage,

@@ -11,12 +11,14 @@ mod bits;
 mod block;
 mod frame;
 mod huffman;
+mod outline;
 mod pixels;
 mod scan;
 
 use self::bits::marker_at;
 use self::frame::{CodingProcess, FrameComponent, FrameHeader};
 use self::huffman::HuffmanTable;
+pub(super) use self::outline::outline;
 pub(super) use self::pixels::{decode, orientation, width};
 use self::scan::{HuffmanTables, ScanHeader};
 use super::damage::PictureFault;

@@ -8,6 +8,7 @@ use std::io::{self, Read};
 use flate2::bufread::ZlibDecoder;
 
 use super::damage::PictureFault;
+use super::stream::ImageOutline;
 use crate::limits::{MAX_FILE_GIB, MAX_SIDE};
 
 const SIGNATURE: usize = 8;
@@ -37,6 +38,18 @@ pub(super) fn check(bytes: &[u8]) -> Result<(), PictureFault> {
         Some(length) if length <= MAX_FILE_GIB << 30 => inflate(&pixels, length),
         _ => Ok(()),
     }
+}
+
+/// Returns the outline of a PNG. Returns `None` if its first chunk is no header.
+pub(super) fn outline(bytes: &[u8]) -> Option<ImageOutline<'_>> {
+    let mut rest = bytes.get(SIGNATURE..)?;
+    let header = next_chunk(&mut rest).ok().filter(|chunk| &chunk.name == b"IHDR")?.data;
+    while let Ok(chunk) = next_chunk(&mut rest) {
+        if &chunk.name == b"IEND" {
+            return Some(ImageOutline { header, after: Some(rest) });
+        }
+    }
+    Some(ImageOutline { header, after: None })
 }
 
 /// Takes the next chunk from the front: length, name, data, checksum.

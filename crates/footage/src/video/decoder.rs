@@ -14,6 +14,8 @@ use crate::samples::SampleLayout;
 pub(super) struct DecodingParameters {
     pub(super) found: LocatedTool,
     pub(super) medium: VideoMedium,
+    /// The number of the stream among the video streams, from 0.
+    pub(super) stream: usize,
     /// The filter that leaves luma, or the colours from which luma is computed.
     pub(super) conversion: String,
     pub(super) interrupt: Interrupt,
@@ -32,7 +34,7 @@ impl DecodingParameters {
                 input.args(["-timeout", NETWORK_TIMEOUT_US])
             }
             VideoMedium::Network(_) => input.args(["-stimeout", NETWORK_TIMEOUT_US]),
-            VideoMedium::File(_) | VideoMedium::Camera(_) => input,
+            VideoMedium::File(_) | VideoMedium::ImageStream(..) | VideoMedium::Camera(_) => input,
         };
         let input = match start {
             StartPosition::BeginningWithOwnTimes => input,
@@ -41,7 +43,9 @@ impl DecodingParameters {
                 input.args(["-copyts", "-noaccurate_seek", "-ss", place])
             }
         };
-        input.args(self.medium.arguments()).args(["-map", "0:v:0"])
+        input
+            .args(self.medium.arguments())
+            .args(["-map".to_owned(), format!("0:v:{}", self.stream)])
     }
 
     /// Returns true if ffmpeg has this version or a later one. Builds between releases have no
@@ -144,13 +148,14 @@ impl VideoDecoder {
         self.stream.read_exact(bytes)
     }
 
-    /// Returns the time from one frame to another in microseconds.
-    pub(super) fn time_us(&self, first: i64, pts: i64) -> u64 {
+    /// Returns the time from one frame to another in microseconds, which is below 0 if the other one
+    /// is earlier.
+    pub(super) fn time_us(&self, first: i64, pts: i64) -> i128 {
         let (numerator, denominator) = self.log.time_base;
         let since = i128::from(pts) - i128::from(first);
-        let scaled = since.max(0) * i128::from(numerator) * 1_000_000;
+        let scaled = since * i128::from(numerator) * 1_000_000;
         let denominator = i128::from(denominator.max(1));
-        u64::try_from((scaled + denominator / 2) / denominator).unwrap_or(u64::MAX)
+        (scaled + denominator / 2).div_euclid(denominator)
     }
 
     /// Returns the problem of the video after its last frame, if there is one.

@@ -108,6 +108,17 @@ const NAMES: &[&str] = &[
     "fits",
 ];
 
+/// The usual demuxers of sound, which may hold a cover picture but no video.
+const SOUND: &[&str] = &[
+    "aac", "ac3", "aiff", "amr", "ape", "au", "caf", "dts", "eac3", "flac", "mp3", "oma", "tta",
+    "w64", "wav", "wv",
+];
+
+/// Returns true for a format of sound.
+pub(super) fn is_sound(name: &str) -> bool {
+    SOUND.contains(&name)
+}
+
 /// Returns the list for ffmpeg's option `-format_whitelist`.
 pub(super) fn allowed() -> String {
     NAMES.join(",")

@@ -56,10 +56,9 @@ pub(super) fn start(
     let mut decoder = VideoDecoder::start(ffmpeg, StartPosition::SeekTo(&place))?;
     // A position that is too late would lose frames. No frame at all may be the end of the video,
     // or a fault.
-    let early = decoder
-        .peek()?
-        .and_then(|shown| shown.pts)
-        .is_some_and(|pts| pts >= first_pts && decoder.time_us(first_pts, pts) <= start_us);
+    let early = decoder.peek()?.and_then(|shown| shown.pts).is_some_and(|pts| {
+        pts >= first_pts && decoder.time_us(first_pts, pts) <= i128::from(start_us)
+    });
     Ok(early.then_some(SeekResult { decoder, first_pts }))
 }
 

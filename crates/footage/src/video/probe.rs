@@ -7,6 +7,7 @@ use std::time::Duration;
 use foveate_toolchain::{Invocation, Tool, Toolchain};
 use serde::Deserialize;
 
+use super::streams::{self, StreamChoice, VideoStream};
 use super::{VideoMedium, formats};
 use crate::FootageError;
 use crate::orientation::FrameTurn;
@@ -17,6 +18,10 @@ const LIMIT: Duration = Duration::from_secs(60);
 /// The properties of a video.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct VideoProperties {
+    /// The number of the stream among the video streams, from 0.
+    pub(super) stream: usize,
+    /// A warning if there are other streams that may have been meant.
+    pub(super) stream_warning: Option<String>,
     /// The number of frames, if the container states it.
     pub(super) frames: Option<u64>,
     /// The names of the container, separated by commas.
@@ -34,7 +39,7 @@ pub(super) struct VideoProperties {
 #[derive(Deserialize)]
 struct FfprobeAnswer {
     #[serde(default)]
-    streams: Vec<FfprobeStream>,
+    streams: Vec<VideoStream>,
     #[serde(default)]
     format: FfprobeContainer,
 }
@@ -45,46 +50,43 @@ struct FfprobeContainer {
     format_name: String,
 }
 
-#[derive(Deserialize)]
-struct FfprobeStream {
-    #[serde(default)]
-    pix_fmt: String,
-    #[serde(default)]
-    codec_name: String,
-    #[serde(default)]
-    color_range: String,
-    nb_frames: Option<String>,
-    #[serde(default)]
-    side_data_list: Vec<FfprobeSideData>,
-}
-
-#[derive(Deserialize)]
-struct FfprobeSideData {
-    displaymatrix: Option<String>,
-}
-
 impl Default for VideoProperties {
     fn default() -> Self {
         let (container, codec) = (String::new(), String::new());
         let (pixel_format, colour_range) = (String::new(), String::new());
         let turn = Ok(FrameTurn::default());
-        Self { frames: None, container, codec, pixel_format, colour_range, turn }
+        let (stream, stream_warning) = (0, None);
+        Self {
+            stream,
+            stream_warning,
+            frames: None,
+            container,
+            codec,
+            pixel_format,
+            colour_range,
+            turn,
+        }
     }
 }
 
 impl VideoProperties {
-    /// Runs ffprobe. A camera is not probed, since it may refuse to be opened twice.
-    pub(super) fn probe(tools: &Toolchain, medium: &VideoMedium) -> Result<Self, FootageError> {
+    /// Runs ffprobe, and chooses a video stream. A camera is not probed, since it may refuse to be
+    /// opened twice.
+    pub(super) fn probe(
+        tools: &Toolchain,
+        medium: &VideoMedium,
+        wanted: Option<usize>,
+    ) -> Result<Self, FootageError> {
         if medium.is_camera() {
-            return Ok(Self::default());
+            return Ok(Self { stream: wanted.unwrap_or(0), ..Self::default() });
         }
         let ffprobe = tools.find(Tool::Ffprobe)?.path;
         let ask = Invocation::new(&ffprobe)
-            .args(["-v", "error", "-select_streams", "v:0"])
+            .args(["-v", "error", "-select_streams", "v"])
             .args([
                 "-show_entries",
-                "stream=pix_fmt,codec_name,color_range,nb_frames:format=format_name:\
-                 stream_side_data=displaymatrix",
+                "stream=pix_fmt,codec_name,color_range,width,height,nb_frames:format=format_name:\
+                 stream_disposition:stream_side_data=displaymatrix",
             ])
             .args(["-of", "json"])
             .args(medium.arguments())
@@ -105,11 +107,15 @@ impl VideoProperties {
         }
         let answer: FfprobeAnswer = serde_json::from_slice(&output.stdout)
             .map_err(|error| refused(format!("ffprobe's answer cannot be read: {error}")))?;
-        let stream = answer.streams.into_iter().next();
-        let stream = stream.ok_or_else(|| refused("it has no video stream".to_owned()))?;
+        let mut streams = answer.streams;
+        let choice = streams::choose(&medium.name(), &streams, wanted).map_err(refused)?;
+        let StreamChoice { stream: number, warning } = choice;
+        let stream = streams.swap_remove(number);
+        let frames = stream.frames();
         let matrix = stream.side_data_list.into_iter().find_map(|data| data.displaymatrix);
-        let frames = stream.nb_frames.and_then(|number| number.parse().ok());
         Ok(Self {
+            stream: number,
+            stream_warning: warning,
             frames,
             container: answer.format.format_name,
             codec: stream.codec_name,
@@ -158,6 +164,9 @@ fn unread_format_problem(
     let said = tools.run(&ask)?.stderr;
     let said = String::from_utf8_lossy(&said);
     let name = formats::refused(&said).unwrap_or("unknown").replace(char::is_control, " ");
+    if formats::is_sound(&name) {
+        return Ok(format!("it is sound (`{name}`), not video, whatever its name is"));
+    }
     Ok(format!(
         "its format is `{name}`, whatever its name is, and only formats that hold their frames themselves are read; \
          make a plain video of it first, for example with `ffmpeg -i FILE -c:v ffv1 OUT.mkv`"

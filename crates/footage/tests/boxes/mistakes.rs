@@ -82,3 +82,59 @@ fn a_damaged_file_of_a_yolo_folder_names_itself() {
         }
     }
 }
+
+#[test]
+fn a_folder_of_yolo_files_is_checked_without_frames() {
+    let folder = tempfile::tempdir().unwrap();
+    file(folder.path(), "a.txt", "0 0.5 0.5 1 1\n");
+    file(folder.path(), "b.txt", "0 0.5 0.5 1\n");
+    // The names of the classes are no boxes.
+    file(folder.path(), "classes.txt", "person\n");
+    let boxes = BoxFile::read(folder.path()).unwrap();
+    assert!(boxes.check_images(&["in/a.jpg", "in/c.jpg"]).is_ok());
+    let message = boxes.check_images(&["in/a.jpg", "in/b.jpg"]).unwrap_err().to_string();
+    assert!(message.contains("b.txt") && message.contains("line 1"), "{message}");
+}
+
+#[test]
+fn an_image_of_another_size_than_coco_states_is_refused() {
+    let text = |size: &str| {
+        format!(
+            "\u{FEFF}{{\"images\": [{{\"id\": 1, \"file_name\": \"a.jpg\"{size}}}], \"annotations\": \
+             [{{\"image_id\": 1, \"bbox\": [0, 0, 5, 5]}}]}}"
+        )
+    };
+    for fits in ["", ", \"width\": 200, \"height\": 100", ", \"width\": 200"] {
+        assert_eq!(at(&text(fits), &image("a.jpg")).unwrap().unwrap().len(), 1, "{fits}");
+    }
+    for (other, parts) in [
+        (", \"width\": 100, \"height\": 50", ["states 100x50", "has 200x100", "labelled"]),
+        (
+            ", \"width\": 100, \"height\": 200",
+            ["states 100x200", "200x100", "--orientation upright"],
+        ),
+    ] {
+        let message = at(&text(other), &image("a.jpg")).unwrap_err().to_string();
+        assert!(parts.iter().all(|part| message.contains(part)), "{message}");
+    }
+}
+
+#[test]
+fn boxes_that_are_left_out_are_counted_by_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    let words = |name: &str, text: &str| {
+        BoxFile::read(&file(folder.path(), name, text)).unwrap().left_out_in_words()
+    };
+    let rows = "1,1,1,1,5,5,1,1,1\n1,2,1,1,5,5,1,3,1\n1,3,1,1,5,5,0,1,1\n2,4,1,1,5,5,1,1,0.2\n2,5,1,1,5,5,0,7,0\n";
+    let said = words("gt.txt", rows).unwrap();
+    for part in
+        ["4 of 5 boxes", "gt.txt", "2 of another class", "1 not to be counted", "1 visible by less"]
+    {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+    assert_eq!(words("one.txt", "1,1,1,1,5,5,1,1,1\n"), None);
+    let crowds = r#"{"images": [{"id": 1, "file_name": "a"}], "annotations": [{"image_id": 1, "bbox": [0, 0, 5, 5], "iscrowd": 1}]}"#;
+    assert!(words("a.json", crowds).unwrap().contains("1 of 1 boxes"));
+    let mot = BoxFile::read(&file(folder.path(), "gt.txt", rows)).unwrap();
+    assert_eq!((mot.boxes_behind(0), mot.boxes_behind(1)), (1, 0));
+}

@@ -15,6 +15,7 @@ mod raw;
 mod seek;
 mod sequences;
 mod sets;
+mod streams;
 mod timestamps;
 mod video;
 mod waits;

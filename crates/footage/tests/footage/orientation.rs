@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::clips::{clip, ffmpeg, frames, tools};
-use foveate_footage::{InputOptions, Orientation, SourceFrame};
+use foveate_footage::{InputOptions, Orientation, SourceFrame, turned_images_warning};
 use foveate_toolchain::testing::sample;
 use image::{ImageBuffer, ImageFormat, Luma};
 
@@ -67,6 +67,9 @@ fn images_stand_upright_if_it_is_wanted() {
         for orientation in 1..=8 {
             fs::write(&path, with_exif(&bytes, format, orientation)).unwrap();
             assert_eq!(first(&path, Orientation::Stored), plain, "{extension} {orientation}");
+            let warning = turned_images_warning(std::slice::from_ref(&path));
+            let named = warning.is_some_and(|text| text.contains("--orientation upright"));
+            assert_eq!(named, orientation != 1, "{extension} {orientation}");
             let expected = upright(&plain, orientation);
             assert_eq!(first(&path, Orientation::Upright), expected, "{extension} {orientation}");
         }

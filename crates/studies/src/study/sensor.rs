@@ -6,13 +6,17 @@ use std::path::Path;
 use std::slice::from_ref;
 
 use foveate_design::Design;
+use foveate_footage::CropRect;
+use foveate_footage::boxes::BoxView;
+use foveate_frame::Rect;
+use foveate_playback::{PlaybackError, PlayedFrame};
 
 use super::sensor_events::{SensorEvent, read_sensor_events};
 use super::{Study, refuse_data_sets};
 use crate::StudyError;
 use crate::findings::StudyFindings;
 use crate::rank::spearman;
-use crate::runner::StudyRunner;
+use crate::runner::{FrameAnnotator, StudyRunner};
 use crate::table::StudyTable;
 
 const COLUMNS: [&str; 5] = ["count_per_region", "spearman", "regions", "sensor_events", "design"];
@@ -24,6 +28,24 @@ struct ModelCounts {
     changed: Vec<u64>,
     pixels: Vec<u64>,
     last_us: u64,
+}
+
+/// The frame as it was before it was cropped and scaled, and the part of it that the camera sees.
+struct SensorView {
+    crop: Option<CropRect>,
+    /// The width and height of the whole frame, and the transformation from it.
+    found: Option<((u32, u32), BoxView)>,
+}
+
+impl FrameAnnotator for SensorView {
+    fn annotate(&mut self, frame: &PlayedFrame) -> Result<(), PlaybackError> {
+        if self.found.is_none() {
+            let origin = frame.origin.expect("an input knows where its frames are from");
+            let view = BoxView::from_source_frame(frame, &origin, self.crop);
+            self.found = Some((origin.size, view));
+        }
+        Ok(())
+    }
 }
 
 /// Runs the study. `start` is the time of the first frame on the clock of the events, in
@@ -38,8 +60,11 @@ pub(crate) fn run(
     if clips != 1 {
         return Err(StudyError::SeveralClips { clips });
     }
-    let watched =
-        watcher.run_clips(from_ref(watcher.config), |counts: &mut ModelCounts, _, seen| {
+    let crop = watcher.clips.options().crop;
+    let watched = watcher.run_annotated_clips(
+        from_ref(watcher.config),
+        |_| SensorView { crop, found: None },
+        |_, counts: &mut ModelCounts, _, seen| {
             let outcome = seen.outcome;
             for (sums, votes) in
                 [(&mut counts.active, &outcome.active), (&mut counts.changed, &outcome.trs)]
@@ -54,13 +79,18 @@ pub(crate) fn run(
                 *sum += if seen.is_without_reference { 0 } else { u64::from(count) };
             }
             counts.last_us = seen.time_us;
-        })?;
+        },
+    )?;
     refuse_data_sets(Study::Sensor, &watched)?;
     let mut table = StudyTable::new(&COLUMNS);
-    for (design, counts) in watched.iter().flat_map(|clip| &clip.points) {
+    let mut outside = 0;
+    let clip = watched.first().expect("there is one clip");
+    let view = clip.annotator.found.as_ref().expect("a clip has a frame");
+    for (design, counts) in &clip.points {
         let times = (start, start.saturating_add(counts.last_us));
-        let events =
-            read_recording(path, design, times)?.into_events_per_region(path, times, design)?;
+        let recording = read_recording(path, design, view, times)?;
+        outside = recording.outside;
+        let events = recording.into_events_per_region(path, times, view.0)?;
         for (name, own) in [
             ("active frames", &counts.active),
             ("frames with TRS", &counts.changed),
@@ -76,7 +106,11 @@ pub(crate) fn run(
         }
     }
     let mut findings = StudyFindings::new(Study::Sensor, &watched, table);
-    findings.notes.push(format!("sensor events {}", path.display()));
+    let left_out = match outside {
+        0 => String::new(),
+        events => format!("; {events} of that time are outside of the frame, left out"),
+    };
+    findings.notes.push(format!("sensor events {}{left_out}", path.display()));
     Ok(findings)
 }
 
@@ -88,6 +122,10 @@ struct SensorRecording {
     times: Option<(u64, u64)>,
     /// True if some event falls into the time of the clip, inside of the frame or not.
     has_events_of_clip: bool,
+    /// True if some event is inside of the frame, at any time.
+    has_events_of_frame: bool,
+    /// The number of events in the time of the clip that are outside of the frame.
+    outside: u64,
 }
 
 impl SensorRecording {
@@ -96,18 +134,22 @@ impl SensorRecording {
         self,
         path: &Path,
         (first, last): (u64, u64),
-        design: &Design,
+        (width, height): (u32, u32),
     ) -> Result<Vec<u64>, StudyError> {
         let wrong = |problem| StudyError::SensorEvents { path: path.to_owned(), problem };
         let (from, to) = self.times.ok_or_else(|| wrong("it holds no event".to_owned()))?;
+        if !self.has_events_of_frame {
+            return Err(wrong(format!(
+                "all its events are outside of the part that is taken of the frame of {width}x{height} pixels"
+            )));
+        }
         if !self.has_events_of_clip {
             let path = path.to_owned();
             return Err(StudyError::SensorTime { path, first, last, from, to });
         }
         if self.per_region.iter().all(|&events| events == 0) {
-            let (width, height) = (design.width(), design.height());
             return Err(wrong(format!(
-                "all events of that time are outside of the frame of {width}x{height} pixels"
+                "all events of that time are outside of the part that is taken of the frame of {width}x{height} pixels"
             )));
         }
         Ok(self.per_region)
@@ -115,26 +157,56 @@ impl SensorRecording {
 }
 
 /// Reads a recording. Events with first < t <= last count for their region, unless they are outside
-/// of the frame.
+/// of the frame. They are cropped and scaled as the frames are.
 fn read_recording(
     path: &Path,
     design: &Design,
+    &((width, height), view): &((u32, u32), BoxView),
     (first, last): (u64, u64),
 ) -> Result<SensorRecording, StudyError> {
-    let per_region = vec![0; design.regions() as usize];
-    let mut recorded = SensorRecording { per_region, times: None, has_events_of_clip: false };
-    let read = read_sensor_events(path, |event| {
-        let SensorEvent { t_us: t, x, y } = event;
+    let mut recorded = SensorRecording {
+        per_region: vec![0; design.regions() as usize],
+        times: None,
+        has_events_of_clip: false,
+        has_events_of_frame: false,
+        outside: 0,
+    };
+    let read = read_sensor_events(path, |SensorEvent { t_us: t, x, y }| {
         let (from, to) = recorded.times.unwrap_or((t, t));
         recorded.times = Some((from.min(t), to.max(t)));
         let meanwhile = t > first && t <= last;
         recorded.has_events_of_clip |= meanwhile;
-        if meanwhile && x < u64::from(design.width()) && y < u64::from(design.height()) {
-            let size = u64::from(design.region_size());
-            let region = y / size * u64::from(design.columns()) + x / size;
-            recorded.per_region[usize::try_from(region).expect("it is in the frame")] += 1;
+        match region_of_event(design, view, (x, y)) {
+            None => recorded.outside += u64::from(meanwhile),
+            Some(region) => {
+                recorded.has_events_of_frame = true;
+                recorded.per_region[region] += u64::from(meanwhile);
+            }
         }
     });
     let wrong = |problem| StudyError::SensorEvents { path: path.to_owned(), problem };
-    read.map(|()| recorded).map_err(wrong)
+    match read.map_err(wrong)? {
+        Some(sensor) if sensor != (width, height) => Err(wrong(format!(
+            "its sensor has {}x{} pixels, but the frames of the clip have {width}x{height}; name the clip of the \
+             same camera",
+            sensor.0, sensor.1
+        ))),
+        _ => Ok(recorded),
+    }
+}
+
+/// Returns the region in which the center of an event's pixel lies, after the frame is cropped and
+/// scaled.
+fn region_of_event(design: &Design, view: BoxView, (x, y): (u64, u64)) -> Option<usize> {
+    let side = |place: u64| u32::try_from(place).map(f64::from).ok();
+    let (x, y) = (side(x)?, side(y)?);
+    let (x, y) = view.transform(&Rect::from_corner_and_size([x, y, 1.0, 1.0]).ok()?).centre();
+    let frame = (f64::from(design.width()), f64::from(design.height()));
+    let is_inside = (0.0..frame.0).contains(&x) && (0.0..frame.1).contains(&y);
+    let region = |place: f64| {
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is inside")]
+        let place = place as u32;
+        place / design.region_size()
+    };
+    is_inside.then(|| (region(y) * design.columns() + region(x)) as usize)
 }

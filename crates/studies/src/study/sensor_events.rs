@@ -15,6 +15,7 @@ use serde::Deserialize;
 #[derive(Deserialize)]
 pub(super) struct SensorEvent {
     /// The time in microseconds.
+    #[serde(alias = "t")]
     pub(super) t_us: u64,
     /// The column of the pixel.
     pub(super) x: u64,
@@ -22,22 +23,32 @@ pub(super) struct SensorEvent {
     pub(super) y: u64,
 }
 
-/// Calls `take` with every event of a file. Returns the problem if it cannot be read.
-pub(super) fn read_sensor_events(path: &Path, take: impl FnMut(SensorEvent)) -> Result<(), String> {
+/// Calls `take` with every event of a file. Returns the width and height of the sensor, if the file
+/// states them, or the problem if it cannot be read.
+pub(super) fn read_sensor_events(
+    path: &Path,
+    take: impl FnMut(SensorEvent),
+) -> Result<Option<(u32, u32)>, String> {
     let input = File::open(path).and_then(unpacked);
     let mut input = input.map_err(|error| error.to_string())?;
     let start = input.fill_buf().map_err(|error| error.to_string())?;
     // A table begins with the name of a column.
-    if is_event_file(start) { read_stream(input, take) } else { read_table(input, take) }
+    if is_event_file(start) {
+        return read_stream(input, take);
+    }
+    read_table(input, take).map(|()| None)
 }
 
-fn read_stream(input: impl BufRead, mut take: impl FnMut(SensorEvent)) -> Result<(), String> {
-    let events = EventReader::open(input).map_err(|error| error.to_string())?;
-    for event in events {
+fn read_stream(
+    input: impl BufRead,
+    mut take: impl FnMut(SensorEvent),
+) -> Result<Option<(u32, u32)>, String> {
+    let mut events = EventReader::open(input).map_err(|error| error.to_string())?;
+    for event in &mut events {
         let event = event.map_err(|error| error.to_string())?;
         take(SensorEvent { t_us: event.time_us, x: event.x.into(), y: event.y.into() });
     }
-    Ok(())
+    Ok(events.size())
 }
 
 fn read_table(input: impl BufRead, mut take: impl FnMut(SensorEvent)) -> Result<(), String> {

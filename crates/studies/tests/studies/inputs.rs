@@ -3,13 +3,14 @@
 
 use std::fs;
 use std::io::Write as _;
+use std::path::Path;
 
 use crate::support::{cells, run};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use foveate_design::DesignConfig;
 use foveate_eventfiles::{EventEncoder, EventFormat, PixelEvent};
-use foveate_footage::{FrameRate, ImageRelation, InputOptions};
+use foveate_footage::{CropRect, FrameRate, ImageRelation, InputOptions};
 use foveate_playback::testing::RecordingHooks;
 use foveate_playback::{PlaybackError, SilentHooks};
 use foveate_studies::{Study, StudyError, StudyRequest, analyze};
@@ -53,13 +54,7 @@ fn sets_have_no_change_to_study() {
 #[test]
 fn a_sensor_that_sees_the_same_correlates_fully() {
     let dir = tempfile::tempdir().unwrap();
-    // The region on the left changes in every frame, the middle one once, and the right one never.
-    for (frame, values) in [[0, 0, 0], [200, 200, 0], [0, 200, 0], [200, 200, 0]].iter().enumerate()
-    {
-        let row: Vec<u8> = values.iter().flat_map(|&value| [value; 8]).collect();
-        let image = [b"P5 24 8 255\n".to_vec(), row.repeat(8)].concat();
-        fs::write(dir.path().join(format!("{frame}.pgm")), image).unwrap();
-    }
+    write_frames(dir.path(), 0, 1);
     let events = dir.path().join("events.csv");
     let csv = "t_us,x,y,on\n500,1,1,1\n1001,1,1,1\n1002,3,7,0\n90000,9,0,1\n900000,23,0,1\n";
     fs::write(&events, csv).unwrap();
@@ -114,6 +109,83 @@ fn a_sensor_that_sees_the_same_correlates_fully() {
     fs::write(&events, "t_us,x,y\n1,2\n").unwrap();
     let refused = analyze(&request, &out, true, &SilentHooks).unwrap_err().to_string();
     assert!(refused.contains("line 2") && refused.contains("events.csv"), "{refused}");
+}
+
+/// Writes four frames of three regions of 8x8 pixels, of which the left one changes in every frame, the
+/// middle one once, and the right one never. `before` columns lie at their left, and every pixel is
+/// `scale` pixels wide and high.
+fn write_frames(folder: &Path, before: usize, scale: usize) {
+    for (frame, values) in [[0, 0, 0], [200, 200, 0], [0, 200, 0], [200, 200, 0]].iter().enumerate()
+    {
+        let regions = values.iter().flat_map(|&value| [value; 8]);
+        let row: Vec<u8> = std::iter::repeat_n(7, before).chain(regions).collect();
+        let row: Vec<u8> = row.iter().flat_map(|&value| vec![value; scale]).collect();
+        let size = format!("P5 {} {} 255\n", row.len(), 8 * scale);
+        let image = [size.into_bytes(), row.repeat(8 * scale)].concat();
+        fs::write(folder.join(format!("{frame}.pgm")), image).unwrap();
+    }
+}
+
+#[test]
+fn events_of_a_sensor_are_cropped_and_scaled_as_its_frames() {
+    let events = [(1, 1, 1001), (3, 7, 1002), (9, 0, 90_000)];
+    let table = |before: usize, scale: usize| {
+        let row = |&(x, y, t): &(usize, usize, u64)| {
+            format!("{t},{},{}\n", (x + before) * scale, y * scale)
+        };
+        format!("t_us,x,y\n{}", events.iter().map(row).collect::<String>())
+    };
+    let study = |before, scale, csv: &[u8], input: &InputOptions| {
+        let dir = tempfile::tempdir().unwrap();
+        write_frames(dir.path(), before, scale);
+        let path = dir.path().join("events");
+        fs::write(&path, csv).unwrap();
+        let request = StudyRequest {
+            study: Study::Sensor,
+            inputs: &[dir.path().join("*.pgm")],
+            input,
+            config: &DesignConfig::default(),
+            sensor_events: Some(&path),
+            sensor_start_us: 1000,
+            boxes: &[],
+        };
+        let out = dir.path().join("out");
+        let found = analyze(&request, &out, true, &SilentHooks);
+        let found = found.map_err(|error| error.to_string())?;
+        Ok::<_, String>((found, fs::read_to_string(out.join("sensor.csv")).unwrap()))
+    };
+    let (plain, _) = study(0, 1, table(0, 1).as_bytes(), &InputOptions::default()).unwrap();
+    assert_eq!(cells(&plain, "sensor_events"), ["3"; 3]);
+    // Our own tables of pixel events call the column `t`.
+    let own = table(0, 1).replace("t_us", "t");
+    let found = study(0, 1, own.as_bytes(), &InputOptions::default()).unwrap();
+    assert_eq!(found.0.rows, plain.rows);
+    let scaled = InputOptions { resize: Some((24, 8)), ..InputOptions::default() };
+    assert_eq!(study(0, 3, table(0, 3).as_bytes(), &scaled).unwrap().0.rows, plain.rows);
+    let part = CropRect { size: (24, 8), origin: (8, 0) };
+    let cropped = InputOptions { crop: Some(part), ..InputOptions::default() };
+    let csv = table(8, 1) + "1003,3,3\n";
+    let (found, notes) = study(8, 1, csv.as_bytes(), &cropped).unwrap();
+    assert_eq!(found.rows, plain.rows);
+    assert!(notes.contains("1 of that time are outside of the frame, left out"), "{notes}");
+    let part = CropRect { size: (72, 24), origin: (24, 0) };
+    let both = InputOptions { crop: Some(part), ..scaled };
+    assert_eq!(study(8, 3, table(8, 3).as_bytes(), &both).unwrap().0.rows, plain.rows);
+    // A sensor of another size is that of another camera.
+    for format in EventFormat::ALL {
+        let (mut encoder, mut bytes) = EventEncoder::new(format, (48, 16)).unwrap();
+        for (x, y, time_us) in events {
+            let (x, y) = (u16::try_from(x).unwrap(), u16::try_from(y).unwrap());
+            encoder.push(PixelEvent { x, y, time_us, is_brighter: true }, &mut bytes).unwrap();
+        }
+        encoder.finish(&mut bytes);
+        let refused = study(0, 1, &bytes, &InputOptions::default()).map(|_| ()).unwrap_err();
+        assert!(refused.contains("48x16") && refused.contains("24x8"), "{format}: {refused}");
+    }
+    // An event that is outside of the frame has no wrong clock.
+    let refused =
+        study(0, 1, b"t_us,x,y\n0,700,20\n", &InputOptions::default()).map(|_| ()).unwrap_err();
+    assert!(refused.contains("outside") && refused.contains("24x8"), "{refused}");
 }
 
 #[test]

@@ -6,13 +6,16 @@
 
 use std::collections::HashMap;
 use std::fmt;
+use std::io::{BufRead, BufReader, Read};
 use std::marker::PhantomData;
 use std::path::Path;
 
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
+use crate::boxes::file::ImageBoxes;
 use crate::boxes::image_name::comparison_name;
+use crate::boxes::left_out::LeftOutBoxes;
 use crate::boxes::limits::{self, MAX_BOXES};
 use crate::boxes::{BoxError, LabelledBox};
 use foveate_frame::Rect;
@@ -29,6 +32,8 @@ struct CocoDocument {
 struct CocoImage {
     id: u64,
     file_name: String,
+    width: Option<u32>,
+    height: Option<u32>,
 }
 
 #[derive(Deserialize)]
@@ -39,21 +44,25 @@ struct CocoAnnotation {
     iscrowd: u8,
 }
 
-/// Reads the boxes of every image, by the name of the image.
-pub(crate) fn read(path: &Path) -> Result<HashMap<String, Vec<LabelledBox>>, BoxError> {
+/// Reads the boxes of every image, by the name of the image, and counts those that are no objects.
+pub(crate) fn read(
+    path: &Path,
+    left_out: &mut LeftOutBoxes,
+) -> Result<HashMap<String, ImageBoxes>, BoxError> {
     let wrong = |problem| BoxError::File { path: path.to_owned(), problem };
-    let document: CocoDocument = serde_json::from_reader(limits::open(path)?).map_err(|error| {
+    let document: CocoDocument = serde_json::from_reader(without_mark(path)?).map_err(|error| {
         if error.is_io() {
             return BoxError::Io { path: path.to_owned(), source: error.into() };
         }
         wrong(format!("{error}; expected a JSON object of COCO with `images` and `annotations`"))
     })?;
     let mut names: HashMap<u64, String> = HashMap::new();
-    let mut images: HashMap<String, Vec<LabelledBox>> = HashMap::new();
-    for CocoImage { id, file_name } in document.images {
+    let mut images: HashMap<String, ImageBoxes> = HashMap::new();
+    for CocoImage { id, file_name, width, height } in document.images {
         let name = comparison_name(&file_name)
             .ok_or_else(|| wrong(format!("the image with the id {id} has no file name")))?;
-        if images.insert(name.clone(), Vec::new()).is_some() {
+        let boxes = ImageBoxes { size: width.zip(height), boxes: Vec::new() };
+        if images.insert(name.clone(), boxes).is_some() {
             return Err(wrong(format!("two images are called `{name}`")));
         }
         if names.insert(id, name).is_some() {
@@ -65,11 +74,24 @@ pub(crate) fn read(path: &Path) -> Result<HashMap<String, Vec<LabelledBox>>, Box
         let rect = Rect::from_corner_and_size(bbox).map_err(wrong)?;
         let boxes = names.get(&image_id).and_then(|name| images.get_mut(name));
         let boxes = boxes.ok_or_else(|| wrong(format!("no image has the id {image_id}")))?;
+        left_out.count((iscrowd != 0).then_some("of crowds (iscrowd)"));
         if iscrowd == 0 {
-            boxes.push(LabelledBox { rect, track: None });
+            boxes.boxes.push(LabelledBox { rect, track: None });
         }
     }
     Ok(images)
+}
+
+/// Opens a file behind the byte order mark of UTF-8, if it has one.
+fn without_mark(path: &Path) -> Result<BufReader<impl Read>, BoxError> {
+    const MARK: &[u8] = b"\xEF\xBB\xBF";
+    let mut file = limits::open(path)?;
+    let start = file.fill_buf();
+    let start = start.map_err(|source| BoxError::Io { path: path.to_owned(), source })?;
+    if start.starts_with(MARK) {
+        file.consume(MARK.len());
+    }
+    Ok(file)
 }
 
 /// Deserializes a list of at most [`MAX_BOXES`] items.

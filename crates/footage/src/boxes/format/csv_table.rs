@@ -8,6 +8,7 @@ use std::path::Path;
 use csv::{ReaderBuilder, Trim};
 
 use super::field::{error_in_line, parse_numbers, unreadable_record};
+use crate::boxes::file::ImageBoxes;
 use crate::boxes::image_name::comparison_name;
 use crate::boxes::limits::{self, MAX_BOXES};
 use crate::boxes::{BoxError, LabelledBox};
@@ -16,7 +17,7 @@ use foveate_frame::Rect;
 pub(crate) const COLUMNS: [&str; 5] = ["file", "x0", "y0", "x1", "y1"];
 
 /// Reads the boxes of every image that has a row, by the name of the image.
-pub(crate) fn read(path: &Path) -> Result<HashMap<String, Vec<LabelledBox>>, BoxError> {
+pub(crate) fn read(path: &Path) -> Result<HashMap<String, ImageBoxes>, BoxError> {
     let reader = limits::open(path)?;
     let mut file =
         foveate_reading::table_reader(ReaderBuilder::new().flexible(true).trim(Trim::All), reader);
@@ -37,7 +38,7 @@ pub(crate) fn read(path: &Path) -> Result<HashMap<String, Vec<LabelledBox>>, Box
             return Err(error_in_line(path, &headers, problem));
         }
     }
-    let mut images: HashMap<String, Vec<LabelledBox>> = HashMap::new();
+    let mut images: HashMap<String, ImageBoxes> = HashMap::new();
     for (number, record) in file.records().enumerate() {
         let record = record.map_err(|error| unreadable_record(path, error))?;
         let wrong = |problem| error_in_line(path, &record, problem);
@@ -58,7 +59,7 @@ pub(crate) fn read(path: &Path) -> Result<HashMap<String, Vec<LabelledBox>>, Box
         let rect = parse_numbers(names, corners).and_then(Rect::from_corners).map_err(wrong)?;
         let name = comparison_name(name)
             .ok_or_else(|| wrong("the name of the image is missing".to_owned()))?;
-        images.entry(name).or_default().push(LabelledBox { rect, track: None });
+        images.entry(name).or_default().boxes.push(LabelledBox { rect, track: None });
     }
     Ok(images)
 }

@@ -13,6 +13,7 @@ use std::path::Path;
 use csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::field::{error_in_line, parse_numbers, parse_whole, unreadable_record};
+use crate::boxes::left_out::LeftOutBoxes;
 use crate::boxes::limits::{self, MAX_BOXES};
 use crate::boxes::{BoxError, LabelledBox};
 use foveate_frame::Rect;
@@ -22,8 +23,12 @@ const COLUMNS: [&str; 9] =
 const PEDESTRIAN: f64 = 1.0;
 const LEAST_VISIBLE: f64 = 0.25;
 
-/// Reads the objects of every frame that has a row, by the number of the frame.
-pub(crate) fn read(path: &Path) -> Result<BTreeMap<u64, Vec<LabelledBox>>, BoxError> {
+/// Reads the objects of every frame that has a row, by the number of the frame, and counts the rows
+/// that are no objects.
+pub(crate) fn read(
+    path: &Path,
+    left_out: &mut LeftOutBoxes,
+) -> Result<BTreeMap<u64, Vec<LabelledBox>>, BoxError> {
     let mut file = foveate_reading::table_reader(
         ReaderBuilder::new().has_headers(false).flexible(true).trim(Trim::All),
         limits::open(path)?,
@@ -42,7 +47,8 @@ pub(crate) fn read(path: &Path) -> Result<BTreeMap<u64, Vec<LabelledBox>>, BoxEr
             return Err(wrong(format!("track {track} has a second box in frame {frame}")));
         }
         let objects = frames.entry(row.frame).or_default();
-        if row.is_object {
+        left_out.count(row.left_out);
+        if row.left_out.is_none() {
             objects.push(LabelledBox { rect: row.rect, track: Some(row.track) });
         }
     }
@@ -53,7 +59,8 @@ struct MotRow {
     frame: u64,
     track: u64,
     rect: Rect,
-    is_object: bool,
+    /// The reason why the row is no object.
+    left_out: Option<&'static str>,
 }
 
 fn parse_row(record: &StringRecord) -> Result<MotRow, String> {
@@ -71,6 +78,14 @@ fn parse_row(record: &StringRecord) -> Result<MotRow, String> {
     let names = [COLUMNS[6], COLUMNS[7], COLUMNS[8]];
     let [counted, class, visible] = parse_numbers(names, [counted, class, visibility])?;
     let rect = Rect::from_corner_and_size([left - 1.0, top - 1.0, width, height])?;
-    let is_object = counted != 0.0 && class == PEDESTRIAN && visible >= LEAST_VISIBLE;
-    Ok(MotRow { frame, track, rect, is_object })
+    let left_out = if class != PEDESTRIAN {
+        Some("of another class than 1 (pedestrian)")
+    } else if counted == 0.0 {
+        Some("not to be counted (flag 0)")
+    } else if visible < LEAST_VISIBLE {
+        Some("visible by less than a quarter")
+    } else {
+        None
+    };
+    Ok(MotRow { frame, track, rect, left_out })
 }

@@ -198,7 +198,8 @@ fn every_pixel_format_gives_its_luma_or_says_that_it_cannot() {
                     let conversion = conversion_filter(name);
                     let medium = VideoMedium::File(file.clone());
                     let (found, interrupt) = (found.clone(), Interrupt::default());
-                    let ffmpeg = DecodingParameters { found, medium, conversion, interrupt };
+                    let ffmpeg =
+                        DecodingParameters { found, medium, stream: 0, conversion, interrupt };
                     let seen = match decoded(&ffmpeg, name, &file) {
                         Ok(seen) => seen,
                         Err(problem) => {

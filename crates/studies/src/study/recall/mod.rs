@@ -99,7 +99,8 @@ fn check_boxes(watched: &[RecallClip]) -> Result<(), StudyError> {
         return Ok(());
     }
     let names: Vec<&str> = watched.iter().map(|clip| clip.name.as_str()).collect();
-    Err(StudyError::NoObjects { clips: names.join(", ") })
+    let left_out = watched.iter().filter_map(|clip| clip.annotator.left_out()).collect();
+    Err(StudyError::NoObjects { clips: names.join(", "), left_out })
 }
 
 /// Returns the unchanged design, and every value of every key.

@@ -30,6 +30,8 @@ pub(super) struct GroundTruthObjects {
     /// The number of frames; `found` counts those with an entry in the boxes.
     frames: u64,
     labelled_frames: u64,
+    /// The largest number of a frame.
+    last_number: u64,
     /// The number of boxes that lie mostly outside of the frame, over all frames.
     outside: u64,
     /// The centres of the tracks in the frame before.
@@ -45,6 +47,7 @@ impl GroundTruthObjects {
             crop,
             frames: 0,
             labelled_frames: 0,
+            last_number: 0,
             outside: 0,
             last_centres: before,
             objects,
@@ -60,14 +63,23 @@ impl GroundTruthObjects {
         if self.labelled_frames > 0 { Ok(()) } else { Err(self.boxes.no_entry_error(clip).into()) }
     }
 
+    /// Returns a sentence about the boxes that are no objects, if there are any.
+    pub(super) fn left_out(&self) -> Option<String> {
+        self.boxes.left_out_in_words()
+    }
+
     /// Returns a note on the origin of the objects.
     pub(super) fn note(&self, clip: &str) -> String {
         let (path, format) = (self.boxes.path().display(), self.boxes.format().name());
         let Self { outside, frames, labelled_frames: found, .. } = self;
         let without = frames - found;
+        let behind = match self.boxes.boxes_behind(self.last_number) {
+            0 => String::new(),
+            boxes => format!("; {boxes} belong to frames behind the last one"),
+        };
         format!(
             "{clip}: boxes {path} ({format}); {outside} lie mostly outside of the frame, left out; \
-             {without} of {frames} frames have no entry and count as frames without objects"
+             {without} of {frames} frames have no entry and count as frames without objects{behind}"
         )
     }
 }
@@ -76,7 +88,9 @@ impl FrameAnnotator for GroundTruthObjects {
     fn annotate(&mut self, frame: &PlayedFrame) -> Result<(), PlaybackError> {
         self.objects.clear();
         let origin = frame.origin.expect("an input knows where its frames are from");
-        let labelled = self.boxes.boxes_of_frame(&FrameKey::from_source_frame(frame, &origin))?;
+        let key = FrameKey::from_source_frame(frame, &origin);
+        let labelled = self.boxes.boxes_of_frame(&key)?;
+        self.last_number = self.last_number.max(self.boxes.frame_number(&key)?);
         self.frames += 1;
         self.labelled_frames += u64::from(labelled.is_some());
         let labelled = labelled.unwrap_or_default();
