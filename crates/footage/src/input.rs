@@ -21,7 +21,7 @@ pub(crate) use content_kind::unread_image_type_by_content;
 pub(crate) use entry::{EntryKind, entries, entry_kind};
 pub use expansion::matched_images;
 pub(crate) use expansion::{expand, sequence_of};
-pub(crate) use file_kind::FileKind;
+use file_kind::FileKind;
 pub(crate) use pattern::{is_pattern, skipped_by_pattern};
 pub(crate) use sequence::SequenceName;
 pub use skip_reason::{SkipReason, SkippedInput};
@@ -41,6 +41,7 @@ use foveate_toolchain::{Interrupt, InterruptibleReader, standard_input};
 
 use crate::address::{CameraAddress, input_without_secrets};
 use crate::options::{ImageRelation, InputOptions};
+use crate::picture::ClipImage;
 use crate::raw::open_raw;
 use crate::raw_layout::RawLayout;
 use crate::sets::cifar::{CifarBatch, CifarSheet};
@@ -164,8 +165,12 @@ fn open_feed(
     // their frames would be read.
     if let ([image], ImageRelation::Clip) = (images.as_slice(), options.images)
         && clips.is_empty()
-        && let Some(kind) = picture::clip_kind(&image.path)
+        && let Some(kind) = picture::clip_image(&image.path)
     {
+        let kind = match kind {
+            ClipImage::Animation => FileKind::Video,
+            ClipImage::Stream(kind) => FileKind::ImageStream(kind),
+        };
         clips.push((images.remove(0).path, kind));
     }
     let idx = |(_, kind): &(PathBuf, FileKind)| *kind == FileKind::Idx;

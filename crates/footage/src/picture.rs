@@ -13,6 +13,7 @@ mod bmp;
 mod conversion;
 mod damage;
 mod jpeg;
+mod outline;
 mod png;
 mod pnm;
 mod stream;
@@ -29,7 +30,7 @@ pub(crate) use self::conversion::ImageConversion;
 use self::damage::PictureFault;
 pub(crate) use self::stream::StreamKind;
 use crate::FootageError;
-use crate::input::{FileKind, unread_image_type_by_content};
+use crate::input::unread_image_type_by_content;
 use crate::limits::{MAX_FILE_GIB, MAX_SIDE};
 use foveate_frame::{convert_depth, luma};
 
@@ -165,15 +166,24 @@ pub(crate) fn is_turned(path: &Path) -> bool {
     matches!(read, Ok(Ok(_))) && conversion::is_turned(&start, path)
 }
 
-/// Returns the kind of a file of several frames: an animated PNG, or a stream of images.
-pub(crate) fn clip_kind(path: &Path) -> Option<FileKind> {
+/// A kind of image file with several frames.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ClipImage {
+    /// An animated PNG.
+    Animation,
+    /// Images that follow each other.
+    Stream(StreamKind),
+}
+
+/// Returns the kind of an image file with several frames.
+pub(crate) fn clip_image(path: &Path) -> Option<ClipImage> {
     /// The number of bytes in which the first image of a stream and the header of the second lie.
     const HEAD: u64 = 1 << 28;
     let mut start = Vec::new();
     let read = open_file(path).map(|file| file.take(HEAD).read_to_end(&mut start));
     match (read, stream::stream_kind(&start)) {
-        (Ok(Ok(_)), Some(kind)) => Some(FileKind::ImageStream(kind)),
-        (Ok(Ok(_)), None) => has_animation(&start).then_some(FileKind::Video),
+        (Ok(Ok(_)), Some(kind)) => Some(ClipImage::Stream(kind)),
+        (Ok(Ok(_)), None) => has_animation(&start).then_some(ClipImage::Animation),
         _ => None,
     }
 }

@@ -14,7 +14,7 @@ use std::sync::{Mutex, PoisonError};
 use super::error::BoxError;
 use super::format::{BoxFormat, coco, csv_table, mot, yolo};
 use super::image_name::path_endings;
-use super::labelled_box::LabelledBox;
+use super::labelled_box::{ImageBoxes, LabelledBox};
 use super::left_out::LeftOutBoxes;
 use super::view::BoxView;
 use crate::{CropRect, FrameOrigin, SourceFrame};
@@ -62,13 +62,6 @@ enum BoxEntries {
     Names(HashMap<String, ImageBoxes>),
     /// The entries are files of a folder, which are read when an image needs them.
     Folder,
-}
-
-/// The boxes of an image, and its width and height, if the file states them.
-#[derive(Debug, Default)]
-pub(crate) struct ImageBoxes {
-    pub(crate) size: Option<(u32, u32)>,
-    pub(crate) boxes: Vec<LabelledBox>,
 }
 
 impl BoxFile {

@@ -11,3 +11,10 @@ pub struct LabelledBox {
     /// The number of the object, which is the same in all frames.
     pub track: Option<u64>,
 }
+
+/// The boxes of an image, and its width and height, if the file states them.
+#[derive(Debug, Default)]
+pub(crate) struct ImageBoxes {
+    pub(crate) size: Option<(u32, u32)>,
+    pub(crate) boxes: Vec<LabelledBox>,
+}

@@ -3,13 +3,8 @@
 //! other directly. What cameras and phones put behind the end of a photo is no stream: previews and
 //! gain maps have another size, and photos of several views say so in their first picture.
 
+use super::outline::ImageOutline;
 use super::{jpeg, png};
-
-/// The header of an image, and the bytes behind its end, if its end was found.
-pub(super) struct ImageOutline<'a> {
-    pub(super) header: &'a [u8],
-    pub(super) after: Option<&'a [u8]>,
-}
 
 /// The kind of the images of a stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

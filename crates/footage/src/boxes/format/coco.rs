@@ -13,8 +13,8 @@ use std::path::Path;
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
-use crate::boxes::file::ImageBoxes;
 use crate::boxes::image_name::comparison_name;
+use crate::boxes::labelled_box::ImageBoxes;
 use crate::boxes::left_out::LeftOutBoxes;
 use crate::boxes::limits::{self, MAX_BOXES};
 use crate::boxes::{BoxError, LabelledBox};

@@ -8,8 +8,8 @@ use std::path::Path;
 use csv::{ReaderBuilder, Trim};
 
 use super::field::{error_in_line, parse_numbers, unreadable_record};
-use crate::boxes::file::ImageBoxes;
 use crate::boxes::image_name::comparison_name;
+use crate::boxes::labelled_box::ImageBoxes;
 use crate::boxes::limits::{self, MAX_BOXES};
 use crate::boxes::{BoxError, LabelledBox};
 use foveate_frame::Rect;

@@ -3,7 +3,7 @@
 
 use super::bits::marker_at;
 use super::segment;
-use crate::picture::stream::ImageOutline;
+use crate::picture::outline::ImageOutline;
 
 /// The segment that announces further pictures in a file, such as the second one of a stereo photo.
 const MULTI_PICTURE: (u8, &[u8]) = (0xE2, b"MPF\0");
