@@ -83,7 +83,9 @@ def explain(
         Number of the frame.
     region : (int, int), default (0, 0)
         Column and row of the region.
-    max_frames, input_fps, rate, start, end, crop, resize, luma, orientation, video_stream, raw, bayer, timestamps, timestamp_unit, images, labels : optional
+    max_frames, input_fps, rate, start, end, crop, resize, luma, orientation : optional
+        How inputs are read, see ``simulate``.
+    video_stream, raw, bayer, timestamps, timestamp_unit, images, labels : optional
         How inputs are read, see ``simulate``.
 
     Returns
@@ -139,7 +141,9 @@ def fidelity(
         The design to measure.
     ideal : Camera, Design, preset, file or dict, optional
         The ideal design. The default is ``camera`` itself, so that only its rounding and its windows are measured.
-    max_frames, input_fps, rate, start, end, crop, resize, luma, orientation, video_stream, raw, bayer, timestamps, timestamp_unit, images, labels : optional
+    max_frames, input_fps, rate, start, end, crop, resize, luma, orientation : optional
+        How inputs are read, see ``simulate``.
+    video_stream, raw, bayer, timestamps, timestamp_unit, images, labels : optional
         How inputs are read, see ``simulate``.
 
     Returns
@@ -194,7 +198,9 @@ def pixel_events(
         is ``temporal.level`` + 1, or 0.2 with ``log``.
     log : bool, default False
         Take the logarithms of pixels.
-    max_frames, input_fps, rate, start, end, crop, resize, luma, orientation, video_stream, raw, bayer, timestamps, timestamp_unit, images, labels : optional
+    max_frames, input_fps, rate, start, end, crop, resize, luma, orientation : optional
+        How inputs are read, see ``simulate``.
+    video_stream, raw, bayer, timestamps, timestamp_unit, images, labels : optional
         How inputs are read, see ``simulate``. Frames from arrays have the times of ``rate`` (30 frames per second).
 
     Returns
@@ -360,7 +366,9 @@ def infer(
         Write the outputs that are pictures as image files, too.
     force : bool, default False
         Replace ``output`` if it holds a result.
-    max_frames, input_fps, rate, start, end, crop, resize, luma, orientation, video_stream, raw, bayer, timestamps, timestamp_unit, images, labels : optional
+    max_frames, input_fps, rate, start, end, crop, resize, luma, orientation : optional
+        How inputs are read, see ``simulate``.
+    video_stream, raw, bayer, timestamps, timestamp_unit, images, labels : optional
         How inputs are read, see ``simulate``.
 
     Returns
@@ -380,7 +388,8 @@ def infer(
     options: dict[str, Any] = dict(
         mode=mode, tune=tune, reference=reference, accelerator=accelerator, mean=mean, scale=scale, framing=framing,
         whole_frames=whole_frames, noise=noise, every=every, detect=detect, boxes=boxes, pictures=pictures, force=force, max_frames=max_frames,
-        input_fps=input_fps, rate=rate, start=start, end=end, crop=crop, resize=resize, luma=luma, orientation=orientation, video_stream=video_stream, raw=raw, bayer=bayer,
+        input_fps=input_fps, rate=rate, start=start, end=end, crop=crop, resize=resize, luma=luma,
+        orientation=orientation, video_stream=video_stream, raw=raw, bayer=bayer,
         timestamps=timestamps, timestamp_unit=timestamp_unit, images=images, labels=labels,
     )
     if output is not None:
