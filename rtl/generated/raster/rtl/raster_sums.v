@@ -32,7 +32,7 @@ module raster_sums #(
     reg ended_q, top_q;
     reg [COLUMN_BITS-1:0] column_q, old_column_q;
     // Each process has a loop variable of its own: tools take one that two of them share for a register with two drivers.
-    integer each, sum;
+    integer value, each;
 
     always @(posedge clk_i) begin
         ended_q      <= step_i && segment_end_i && !rst_i;
@@ -40,9 +40,9 @@ module raster_sums #(
         old_column_q <= column_q;
         if (step_i) begin
             fresh_q <= segment_end_i;
-            for (each = 0; each < VALUES; each = each + 1)
-                row_q[each*SUM_BITS+:SUM_BITS] <= (fresh_q ? {SUM_BITS{1'b0}} : row_q[each*SUM_BITS+:SUM_BITS])
-                    + {{(SUM_BITS - VALUE_BITS) {1'b0}}, values_i[each*VALUE_BITS+:VALUE_BITS]};
+            for (value = 0; value < VALUES; value = value + 1)
+                row_q[value*SUM_BITS+:SUM_BITS] <= (fresh_q ? {SUM_BITS{1'b0}} : row_q[value*SUM_BITS+:SUM_BITS])
+                    + {{(SUM_BITS - VALUE_BITS) {1'b0}}, values_i[value*VALUE_BITS+:VALUE_BITS]};
             if (segment_end_i) column_q <= row_end_i ? {COLUMN_BITS{1'b0}} : column_q + 1'b1;
         end
         if (rst_i) begin
@@ -69,9 +69,9 @@ module raster_sums #(
     );
 
     always @(posedge clk_i) begin
-        for (sum = 0; sum < VALUES; sum = sum + 1)
-            sums_o[sum*SUM_BITS+:SUM_BITS] <= row[sum*SUM_BITS+:SUM_BITS]
-                + (top ? {SUM_BITS{1'b0}} : above[sum*SUM_BITS+:SUM_BITS]);
+        for (each = 0; each < VALUES; each = each + 1)
+            sums_o[each*SUM_BITS+:SUM_BITS] <= row[each*SUM_BITS+:SUM_BITS]
+                + (top ? {SUM_BITS{1'b0}} : above[each*SUM_BITS+:SUM_BITS]);
         written_q      <= ended && !rst_i;
         write_column_q <= column;
     end
