@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use foveate_design::CameraConfig;
 use foveate_footage::{
-    ClipPlan, InputOptions, SourceKind, plan, skipped_in_words, source_from_memory,
+    ClipPlan, InputOptions, InputWarnings, SourceKind, plan, skipped_in_words, source_from_memory,
 };
 use foveate_frame::ByteFrame;
 use foveate_playback::ClipPlayer;
@@ -17,7 +17,6 @@ use pyo3::prelude::*;
 use crate::array::untyped;
 use crate::error::{raise, value_error};
 use crate::frame::Grey;
-use crate::options::input_warnings;
 
 /// The name of frames from arrays in results.
 pub(crate) const ARRAY_NAME: &str = "array";
@@ -53,7 +52,7 @@ pub(crate) fn problem_text(player: &ClipPlayer) -> Option<String> {
 /// Warns of the error that ended a clip before its end, if there is one, and of what was found while
 /// inputs were read.
 pub(crate) fn warn_of_problem(py: Python<'_>, problem: Option<String>) -> PyResult<()> {
-    for sentence in input_warnings().take().into_iter().chain(problem) {
+    for sentence in InputWarnings::of_process().take().into_iter().chain(problem) {
         let text = CString::new(sentence).unwrap_or_default();
         PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)?;
     }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Options by name: which of them a function has, and which one was probably meant by an unknown name.
 
-use std::sync::LazyLock;
-
 use foveate_footage::{
     BayerPattern, CropRect, FrameRate, ImageRelation, InputOptions, InputWarnings, LumaRange,
     Orientation, RawLayout, TimestampUnit, TimestampsFile, parse_time,
@@ -39,7 +37,8 @@ pub(crate) fn input_options(
     own: &[&str],
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<InputOptions> {
-    let mut found = InputOptions { warnings: input_warnings(), ..InputOptions::default() };
+    let mut found =
+        InputOptions { warnings: InputWarnings::of_process(), ..InputOptions::default() };
     let Some(options) = options else { return Ok(found) };
     for (name, value) in options.iter() {
         let name: String = name.extract()?;
@@ -56,12 +55,6 @@ pub(crate) fn input_options(
         )));
     }
     Ok(found)
-}
-
-/// Returns the warnings that inputs have found while they were read and that Python has not had yet.
-pub(crate) fn input_warnings() -> InputWarnings {
-    static WARNINGS: LazyLock<InputWarnings> = LazyLock::new(InputWarnings::default);
-    WARNINGS.clone()
 }
 
 /// Refuses an option that a function of the Python files does not have.

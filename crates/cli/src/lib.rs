@@ -22,6 +22,7 @@ use std::ffi::OsString;
 
 use args::{Cli, Command};
 use clap::{CommandFactory, FromArgMatches};
+use foveate_footage::InputWarnings;
 use foveate_toolchain::end_all_process_families;
 
 /// Runs the command with these words, of which the first is its name, and returns its exit code.
@@ -37,7 +38,7 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
         }
     };
     let result = run_command(&cli, &words);
-    notice::input_warnings().take().iter().for_each(|warning| notice::print_warning(warning));
+    InputWarnings::of_process().take().iter().for_each(|warning| notice::print_warning(warning));
     let code = match result {
         Ok(()) => 0,
         Err(error) => {

@@ -4,9 +4,8 @@
 use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{self, Write};
-use std::sync::LazyLock;
 
-use foveate_footage::{InputWarnings, text_without_secrets};
+use foveate_footage::text_without_secrets;
 
 /// Returns text that cannot control a terminal, even if it contains the name of a file, the message
 /// of a tool or data. Control characters are written out, such as `\u{1b}`, except tabs and ends of
@@ -38,13 +37,6 @@ pub(crate) fn print_notice(text: &(impl Display + ?Sized)) {
 /// Prints a warning on standard error. The command goes on.
 pub(crate) fn print_warning(text: &str) {
     print_notice(&format_args!("warning: {text}"));
-}
-
-/// Returns the warnings that inputs find while they are read. They are printed at the end of the
-/// command.
-pub(crate) fn input_warnings() -> InputWarnings {
-    static WARNINGS: LazyLock<InputWarnings> = LazyLock::new(InputWarnings::default);
-    WARNINGS.clone()
 }
 
 /// Prints help, or the error in the words of the command line.

@@ -8,12 +8,12 @@
 
 mod assignment;
 mod error;
+mod exclusions;
 mod file;
 mod format;
 mod grid;
 mod image_name;
 mod labelled_box;
-mod left_out;
 mod limits;
 mod view;
 

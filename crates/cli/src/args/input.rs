@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use foveate_footage::{
     BayerPattern, ClipPlan, CropRect, FrameRate, FrameSelection, ImageRelation, InputOptions,
-    LumaRange, MAX_SIDE, Orientation, RawLayout, TimestampUnit, TimestampsFile, input_warnings,
-    parse_time, plan,
+    InputWarnings, LumaRange, MAX_SIDE, Orientation, RawLayout, TimestampUnit, TimestampsFile,
+    input_warnings, parse_time, plan,
 };
 use foveate_staging::{FolderKind, StagedFolder};
 
@@ -197,7 +197,7 @@ impl InputArgs {
             labels: self.labels.clone(),
             numbered: false,
             interrupt: interrupt::stop_request(),
-            warnings: notice::input_warnings(),
+            warnings: InputWarnings::of_process(),
         }
     }
 }

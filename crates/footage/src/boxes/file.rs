@@ -12,10 +12,10 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use super::error::BoxError;
+use super::exclusions::BoxExclusions;
 use super::format::{BoxFormat, coco, csv_table, mot, yolo};
 use super::image_name::path_endings;
 use super::labelled_box::{ImageBoxes, LabelledBox};
-use super::left_out::LeftOutBoxes;
 use super::view::BoxView;
 use crate::{CropRect, FrameOrigin, SourceFrame};
 use foveate_frame::Rect;
@@ -51,7 +51,7 @@ pub struct BoxFile {
     path: PathBuf,
     format: BoxFormat,
     entries: BoxEntries,
-    left_out: LeftOutBoxes,
+    left_out: BoxExclusions,
     /// The image that took the boxes of each name.
     assigned_images: Mutex<HashMap<String, PathBuf>>,
 }
@@ -72,7 +72,7 @@ impl BoxFile {
     /// lines.
     pub fn read(path: &Path) -> Result<Self, BoxError> {
         let format = BoxFormat::detect(path)?;
-        let mut left_out = LeftOutBoxes::default();
+        let mut left_out = BoxExclusions::default();
         let entries = match format {
             BoxFormat::Mot => BoxEntries::Numbers(mot::read(path, &mut left_out)?),
             BoxFormat::Coco => BoxEntries::Names(coco::read(path, &mut left_out)?),

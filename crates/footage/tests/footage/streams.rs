@@ -9,21 +9,21 @@ use foveate_footage::{FrameRate, FrameSelection, InputOptions};
 use foveate_toolchain::testing::data_folder;
 
 /// The size, the times of all frames, the problem and the warnings of a file.
-struct ReadClip {
+struct ClipContent {
     size: (u32, u32),
     times: Vec<u64>,
     problem: Option<String>,
     warnings: Vec<String>,
 }
 
-fn read(path: &Path, options: &InputOptions) -> Result<ReadClip, String> {
+fn read(path: &Path, options: &InputOptions) -> Result<ClipContent, String> {
     let mut source = opened(path, 8, options).map_err(|error| error.to_string())?;
     let mut times = Vec::new();
     while let Some(frame) = source.next_frame().map_err(|error| error.to_string())? {
         times.push(frame.time_us);
     }
     let (size, problem) = (source.size(), source.problem());
-    Ok(ReadClip { size, times, problem, warnings: options.warnings.take() })
+    Ok(ClipContent { size, times, problem, warnings: options.warnings.take() })
 }
 
 fn text(path: &Path) -> &str {

@@ -13,9 +13,9 @@ use std::path::Path;
 use serde::de::{Error, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer};
 
+use crate::boxes::exclusions::BoxExclusions;
 use crate::boxes::image_name::comparison_name;
 use crate::boxes::labelled_box::ImageBoxes;
-use crate::boxes::left_out::LeftOutBoxes;
 use crate::boxes::limits::{self, MAX_BOXES};
 use crate::boxes::{BoxError, LabelledBox};
 use foveate_frame::Rect;
@@ -47,7 +47,7 @@ struct CocoAnnotation {
 /// Reads the boxes of every image, by the name of the image, and counts those that are no objects.
 pub(crate) fn read(
     path: &Path,
-    left_out: &mut LeftOutBoxes,
+    left_out: &mut BoxExclusions,
 ) -> Result<HashMap<String, ImageBoxes>, BoxError> {
     let wrong = |problem| BoxError::File { path: path.to_owned(), problem };
     let document: CocoDocument = serde_json::from_reader(without_mark(path)?).map_err(|error| {

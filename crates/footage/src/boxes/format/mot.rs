@@ -13,7 +13,7 @@ use std::path::Path;
 use csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::field::{error_in_line, parse_numbers, parse_whole, unreadable_record};
-use crate::boxes::left_out::LeftOutBoxes;
+use crate::boxes::exclusions::BoxExclusions;
 use crate::boxes::limits::{self, MAX_BOXES};
 use crate::boxes::{BoxError, LabelledBox};
 use foveate_frame::Rect;
@@ -27,7 +27,7 @@ const LEAST_VISIBLE: f64 = 0.25;
 /// that are no objects.
 pub(crate) fn read(
     path: &Path,
-    left_out: &mut LeftOutBoxes,
+    left_out: &mut BoxExclusions,
 ) -> Result<BTreeMap<u64, Vec<LabelledBox>>, BoxError> {
     let mut file = foveate_reading::table_reader(
         ReaderBuilder::new().has_headers(false).flexible(true).trim(Trim::All),

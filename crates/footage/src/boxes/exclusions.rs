@@ -6,13 +6,13 @@ use std::path::Path;
 
 /// Boxes that are left out, counted by reason.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct LeftOutBoxes {
+pub(crate) struct BoxExclusions {
     /// The number of all boxes of the file.
     boxes: u64,
     by_reason: BTreeMap<&'static str, u64>,
 }
 
-impl LeftOutBoxes {
+impl BoxExclusions {
     /// Counts a box, which is left out if there is a reason.
     pub(crate) fn count(&mut self, reason: Option<&'static str>) {
         self.boxes += 1;
