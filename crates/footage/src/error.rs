@@ -152,10 +152,7 @@ pub enum FootageError {
         problem: String,
     },
     /// A network camera gives no frame.
-    #[error(
-        "camera `{url}` gives no frame: {problem}; check the address, user and password with `ffprobe URL`, and that the \
-         camera can be reached from here"
-    )]
+    #[error("camera `{url}` gives no frame: {problem}; {}", network_advice(problem))]
     Network {
         /// The address, without user and password.
         url: String,
@@ -352,6 +349,27 @@ impl From<ToolError> for FootageError {
     }
 }
 
+/// Returns what to do about a camera of the network, by what ffmpeg says about it.
+fn network_advice(problem: &str) -> &'static str {
+    let has = |parts: &[&str]| parts.iter().any(|part| problem.contains(part));
+    if has(&["461 ", "Nonmatching transport"]) {
+        "it sends over UDP only, and only TCP is read; allow RTP over TCP (interleaved) in its settings, or put a relay \
+         in between, for example MediaMTX"
+    } else if has(&["matches no streams"]) {
+        "it sends no video, perhaps only sound; check the path of the address, which `ffprobe URL` shows"
+    } else if has(&["PPS", "VPS", "decode_slice_header", "no frame!"]) {
+        "it has sent no key frame, with which decoding begins; set a shorter interval of key frames in its settings"
+    } else if has(&["sent nothing"]) {
+        "it has answered, but it sends no pictures; check that it is on and that no other program holds its stream"
+    } else if has(&["401", "403"]) {
+        "check user and password with `ffprobe URL`"
+    } else if has(&["404"]) {
+        "check the path of the address with `ffprobe URL`"
+    } else {
+        "check the address, user and password with `ffprobe URL`, and that the camera can be reached from here"
+    }
+}
+
 /// Returns a name for an image after its conversion to PNG.
 fn converted(path: &Path) -> PathBuf {
     let other = path.with_extension("png");
@@ -370,4 +388,39 @@ fn video_problem(path: &Path, problem: &str) -> String {
     format!(
         "`{shown}` is not an image ({TYPES}) or a data set (IDX, CIFAR), and ffmpeg cannot read it as a video: {problem}"
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The problems are those of ffmpeg 5.1 with a server of each kind.
+    #[test]
+    fn the_advice_for_a_network_camera_names_the_cause() {
+        for (problem, part) in [
+            (
+                "ffmpeg reports 2 faults, the first: method SETUP failed: 461 Unsupported Transport",
+                "UDP",
+            ),
+            ("ffmpeg reports 2 faults, the first: Nonmatching transport in server reply", "UDP"),
+            ("ffmpeg reports: Stream map '0:v:0' matches no streams.", "sound"),
+            ("ffmpeg reports 603 faults, the first: non-existing PPS 0 referenced", "key frame"),
+            ("it has sent nothing for 10 s", "sends no pictures"),
+            (
+                "ffmpeg reports 2 faults, the first: method DESCRIBE failed: 401 Unauthorized",
+                "user and password",
+            ),
+            (
+                "ffmpeg reports 2 faults, the first: method DESCRIBE failed: 404 Not Found",
+                "the path",
+            ),
+            (
+                "ffmpeg reports: Connection to tcp://127.0.0.1:9 failed: Connection refused",
+                "reached from here",
+            ),
+        ] {
+            let advice = network_advice(problem);
+            assert!(advice.contains(part), "{problem}: {advice}");
+        }
+    }
 }

@@ -43,9 +43,6 @@ use crate::{
     FootageError, FrameRate, InputOptions, InputWarnings, LumaRange, Orientation, SourceFrame,
 };
 
-/// The time in microseconds after which ffmpeg gives up on a silent network camera.
-const NETWORK_TIMEOUT_US: &str = "10000000";
-
 /// The medium from which a video is read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum VideoMedium {
@@ -184,6 +181,7 @@ impl VideoFeed {
         let ffmpeg = DecodingParameters {
             found,
             medium: medium.clone(),
+            container: probe.container.clone(),
             stream: probe.stream,
             conversion,
             interrupt,

@@ -152,6 +152,12 @@ pub enum ToolError {
         name: String,
     },
 
+    /// A program that runs has written no line for too long.
+    #[error("it has sent nothing for {} s", limit.as_secs())]
+    Silent {
+        /// The time limit.
+        limit: Duration,
+    },
     /// The user has requested a stop.
     #[error("interrupted")]
     Interrupted,

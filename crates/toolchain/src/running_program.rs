@@ -70,7 +70,15 @@ impl ProgramReader {
     /// # Errors
     /// Fails with [`ToolError::Interrupted`] on an interrupt.
     pub fn next_line(&self) -> Result<Option<String>, ToolError> {
-        self.running.next_line()
+        self.running.next_line(None)
+    }
+
+    /// Waits for the next line as [`ProgramReader::next_line`] does, but not longer than `limit`.
+    ///
+    /// # Errors
+    /// Fails with [`ToolError::Silent`] after this time, and like [`ProgramReader::next_line`].
+    pub fn next_line_within(&self, limit: Duration) -> Result<Option<String>, ToolError> {
+        self.running.next_line(Some(limit))
     }
 
     /// Waits for the end of the program, after its output has been read. Returns whether the exit
@@ -196,7 +204,8 @@ impl RunningProgram {
         Ok(running)
     }
 
-    fn next_line(&self) -> Result<Option<String>, ToolError> {
+    fn next_line(&self, limit: Option<Duration>) -> Result<Option<String>, ToolError> {
+        let start = Instant::now();
         loop {
             if self.interrupt.is_set() {
                 return Err(ToolError::Interrupted);
@@ -204,7 +213,11 @@ impl RunningProgram {
             match self.lines.recv_timeout(POLL_STEP) {
                 Ok(line) => return Ok(Some(line)),
                 Err(RecvTimeoutError::Disconnected) => return Ok(None),
-                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Timeout) => {
+                    if let Some(limit) = limit.filter(|&limit| start.elapsed() >= limit) {
+                        return Err(ToolError::Silent { limit });
+                    }
+                }
             }
         }
     }
@@ -323,6 +336,16 @@ mod tests {
         assert_eq!(lines.last().map(String::as_str), Some("last"));
         assert_eq!(lines.iter().map(String::len).collect::<Vec<_>>(), [1 << 14, 4]);
         assert_eq!(stream.finish().unwrap(), (false, "exit status: 3".to_owned()));
+    }
+
+    #[test]
+    fn a_silent_program_is_not_waited_for() {
+        let script = "echo one >&2; exec sleep 60";
+        let stream = ProgramReader::start(&shell(script), &Interrupt::default()).unwrap();
+        let limit = Duration::from_secs(5);
+        assert_eq!(stream.next_line_within(limit).unwrap().as_deref(), Some("one"));
+        let silent = stream.next_line_within(Duration::from_millis(20)).unwrap_err();
+        assert!(matches!(silent, ToolError::Silent { .. }), "{silent}");
     }
 
     #[test]

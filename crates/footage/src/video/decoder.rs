@@ -3,17 +3,25 @@
 //! every frame and returns its pixels.
 
 use std::io::{self, Read};
+use std::time::Duration;
 
 use foveate_toolchain::{Interrupt, Invocation, LocatedTool, ProgramReader, ToolError};
 
+use super::VideoMedium;
 use super::ffmpeg_log::{AnnouncedFrame, FfmpegLog, LogEntry};
-use super::{NETWORK_TIMEOUT_US, VideoMedium};
 use crate::samples::SampleLayout;
+
+/// The time after which ffmpeg gives up on a network camera that does not answer.
+const NETWORK_TIMEOUT: Duration = Duration::from_secs(10);
+/// The time that ffmpeg looks at a stream before it says anything about it.
+const PROBING_TIME: Duration = Duration::from_secs(5);
 
 /// The parameters of the decoding of a video.
 pub(super) struct DecodingParameters {
     pub(super) found: LocatedTool,
     pub(super) medium: VideoMedium,
+    /// The names of the container, as ffprobe gives them. It is empty for a medium that was not probed.
+    pub(super) container: String,
     /// The number of the stream among the video streams, from 0.
     pub(super) stream: usize,
     /// The filter that leaves luma, or the colours from which luma is computed.
@@ -30,10 +38,10 @@ impl DecodingParameters {
         let input = match self.medium {
             // Before ffmpeg 5.0 the option was called `-stimeout`, and `-timeout` made ffmpeg wait
             // for a caller.
-            VideoMedium::Network(_) if self.is_version_or_later(5, 0) => {
-                input.args(["-timeout", NETWORK_TIMEOUT_US])
+            VideoMedium::Network(_) => {
+                let option = if self.is_version_or_later(5, 0) { "-timeout" } else { "-stimeout" };
+                input.args([option.to_owned(), NETWORK_TIMEOUT.as_micros().to_string()])
             }
-            VideoMedium::Network(_) => input.args(["-stimeout", NETWORK_TIMEOUT_US]),
             VideoMedium::File(_) | VideoMedium::ImageStream(..) | VideoMedium::Camera(_) => input,
         };
         let input = match start {
@@ -91,6 +99,8 @@ pub(super) struct VideoDecoder {
     log: FfmpegLog,
     /// A frame that was announced but not taken.
     announced_frame: Option<AnnouncedFrame>,
+    /// The longest time without a line.
+    silence_limit: Option<Duration>,
 }
 
 impl VideoDecoder {
@@ -98,15 +108,18 @@ impl VideoDecoder {
         ffmpeg: &DecodingParameters,
         start: StartPosition<'_>,
     ) -> Result<Self, ToolError> {
-        Self::from_invocation(&ffmpeg.decoding(start), &ffmpeg.interrupt)
+        Self::from_invocation(ffmpeg, &ffmpeg.decoding(start))
     }
 
     pub(super) fn from_invocation(
+        ffmpeg: &DecodingParameters,
         decoding: &Invocation,
-        interrupt: &Interrupt,
     ) -> Result<Self, ToolError> {
-        let stream = ProgramReader::start(decoding, interrupt)?;
-        Ok(Self { stream, log: FfmpegLog::default(), announced_frame: None })
+        let stream = ProgramReader::start(decoding, &ffmpeg.interrupt)?;
+        let log = FfmpegLog::new(ffmpeg.container.clone());
+        let is_network = matches!(ffmpeg.medium, VideoMedium::Network(_));
+        let silence_limit = is_network.then_some(NETWORK_TIMEOUT + PROBING_TIME);
+        Ok(Self { stream, log, announced_frame: None, silence_limit })
     }
 
     /// Returns the next frame that ffmpeg announces. Returns `None` if no more frames follow, or if
@@ -118,7 +131,7 @@ impl VideoDecoder {
         if let Some(shown) = self.announced_frame.take() {
             return Ok(Some(shown));
         }
-        while let Some(line) = self.stream.next_line()? {
+        while let Some(line) = self.next_line()? {
             match self.log.read_line(&line) {
                 Some(LogEntry::Frame(shown)) => return Ok(Some(shown)),
                 Some(LogEntry::UntakableFrame(problem)) => {
@@ -131,6 +144,25 @@ impl VideoDecoder {
             }
         }
         Ok(None)
+    }
+
+    /// Returns the next line of ffmpeg. A camera of the network that is silent ends the video, for which ffmpeg
+    /// itself may take a minute.
+    fn next_line(&mut self) -> Result<Option<String>, ToolError> {
+        let Some(limit) = self.silence_limit else { return self.stream.next_line() };
+        match self.stream.next_line_within(limit) {
+            Ok(Some(line)) if line.ends_with("timed out") => {
+                self.stream.stop();
+                self.log.refuse(ToolError::Silent { limit: NETWORK_TIMEOUT }.to_string());
+                Ok(None)
+            }
+            Err(error @ ToolError::Silent { .. }) => {
+                self.stream.stop();
+                self.log.refuse(error.to_string());
+                Ok(None)
+            }
+            line => line,
+        }
     }
 
     /// Returns the next frame that ffmpeg announces without taking it.

@@ -1,5 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The messages of ffmpeg during decoding: frames announced by `showinfo`, and faults.
+//!
+//! Not every error of ffmpeg is damage of a frame that is read, so these do not count:
+//!
+//! * what decoders say before decoding begins. ffmpeg then tries all streams, also sound, and
+//!   decodes the chosen one again afterwards;
+//! * what concerns neither samples nor references, such as EXIF data in an APP segment ([`ASIDES`]);
+//! * missing references of frames before the first one. A stream that was cut without being encoded
+//!   anew begins with such frames, which are not shown ([`REFERENCES`]). Later they are a sign of loss.
 
 use super::pixel_formats::{SampleFormat, sample_format};
 use crate::MAX_SIDE;
@@ -24,38 +32,97 @@ pub(super) enum LogEntry {
     UntakableFrame(String),
 }
 
+/// Parts of messages about data that are no samples.
+const ASIDES: [&str; 6] =
+    ["EXIF data", "in APP2", "ICC markers", "decode_app parser", "APP fields", "SEI"];
+/// Parts of messages about references that are not there.
+const REFERENCES: [&str; 3] = [
+    "mmco: unref short failure",
+    "number of reference frames (",
+    "Missing reference picture, default is",
+];
+
 /// The messages so far.
 #[derive(Debug)]
 pub(super) struct FfmpegLog {
     /// The number of seconds per unit of time, as a fraction.
     pub(super) time_base: (u32, u32),
+    /// The name of the container, by which ffmpeg calls its reader. It is empty for a medium that was not probed.
+    container: String,
+    stage: DecodingStage,
     faults: u64,
     first_fault: Option<String>,
     /// The reason why a frame that ffmpeg announced cannot be taken.
     refusal: Option<String>,
 }
 
-impl Default for FfmpegLog {
-    fn default() -> Self {
-        Self { time_base: (1, 1_000_000), faults: 0, first_fault: None, refusal: None }
-    }
+/// How far ffmpeg has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum DecodingStage {
+    /// It looks at all streams.
+    Probing,
+    /// It decodes the chosen stream, and has announced no frame.
+    Begun,
+    FrameAnnounced,
 }
 
 impl FfmpegLog {
+    pub(super) fn new(container: String) -> Self {
+        Self {
+            time_base: (1, 1_000_000),
+            container,
+            stage: DecodingStage::Probing,
+            faults: 0,
+            first_fault: None,
+            refusal: None,
+        }
+    }
+
     pub(super) fn read_line(&mut self, line: &str) -> Option<LogEntry> {
         if line.starts_with("[Parsed_showinfo_") {
             if let Some((_, base)) = line.split_once("] config in time_base: ") {
                 self.time_base = parse_fraction(base).unwrap_or(self.time_base);
             }
-            return parse_frame(line);
+            let frame = parse_frame(line);
+            let stage =
+                if frame.is_some() { DecodingStage::FrameAnnounced } else { DecodingStage::Begun };
+            self.stage = self.stage.max(stage);
+            return frame;
         }
-        let said = fault_text(line)?;
+        let line = LogLine::parse(line);
+        if line.text == "[info] Stream mapping:" {
+            self.stage = self.stage.max(DecodingStage::Begun);
+        }
+        let said = self.fault_text(&line)?;
         self.faults += 1;
         if self.first_fault.is_none() {
             let plain: String = said.replace(char::is_control, " ");
             self.first_fault = Some(plain.trim().chars().take(MAX_FAULT_LENGTH).collect());
         }
         None
+    }
+
+    /// Returns the text of a line that tells of a fault in what is read.
+    fn fault_text<'a>(&self, line: &LogLine<'a>) -> Option<&'a str> {
+        let faults = ["[error] ", "[fatal] ", "[panic] "];
+        let of_corruption = |text: &&str| text.to_lowercase().contains("corrupt");
+        let said = faults
+            .iter()
+            .find_map(|level| line.text.strip_prefix(level))
+            .or_else(|| line.text.strip_prefix("[warning] ").filter(of_corruption))?;
+        let has_any = |parts: &[&str]| parts.iter().any(|part| said.contains(part));
+        // The muxer of raw frames complains about missing times, which are not a fault of the video.
+        let is_other = line.component == "rawvideo"
+            || self.stage == DecodingStage::Probing && self.is_of_other_stream(line, said);
+        let is_harmless =
+            has_any(&ASIDES) || self.stage < DecodingStage::FrameAnnounced && has_any(&REFERENCES);
+        (!is_other && !is_harmless).then_some(said)
+    }
+
+    /// Returns true for what a decoder says, and for a packet of any stream, while all streams are looked at.
+    fn is_of_other_stream(&self, line: &LogLine<'_>, said: &str) -> bool {
+        let is_of_decoder = !["", self.container.as_str()].contains(&line.component);
+        !self.container.is_empty() && (is_of_decoder || said.starts_with("Packet corrupt"))
     }
 
     /// Records the reason why a frame cannot be taken.
@@ -76,21 +143,27 @@ impl FfmpegLog {
     }
 }
 
-/// Returns the text of a fault: `[h264 @ 0x1] [error] ...`, `[error] ...`, or a warning of damage.
-fn fault_text(line: &str) -> Option<&str> {
-    let component =
-        |line: &&str| line.split_once("] ").is_some_and(|(name, _)| name.contains(" @ 0x"));
-    let said = match Some(line).filter(component) {
-        // The muxer of raw frames complains about missing times, which are not a fault of the
-        // video.
-        Some(line) if line.starts_with("[rawvideo @ ") => return None,
-        Some(line) => line.split_once("] ")?.1,
-        None => line,
-    };
-    let faults = ["[error] ", "[fatal] ", "[panic] "];
-    faults.iter().find_map(|level| said.strip_prefix(level)).or_else(|| {
-        said.strip_prefix("[warning] ").filter(|said| said.to_lowercase().contains("corrupt"))
-    })
+/// A line of the form `[h264 @ 0x1] [error] text`, in which the program itself names no component.
+/// Newer versions name a component in a component.
+#[derive(Clone, Copy, Debug, Default)]
+struct LogLine<'a> {
+    /// The name of the last component.
+    component: &'a str,
+    /// The level and the text.
+    text: &'a str,
+}
+
+impl<'a> LogLine<'a> {
+    fn parse(line: &'a str) -> Self {
+        let mut parsed = Self { component: "", text: line };
+        while let Some((name, text)) = parsed.text.split_once("] ")
+            && let Some((name, _)) = name.split_once(" @ 0x")
+            && let Some(component) = name.strip_prefix('[')
+        {
+            parsed = Self { component, text };
+        }
+        parsed
+    }
 }
 
 /// Parses `1/12800, frame_rate: ...`.
@@ -147,7 +220,7 @@ mod tests {
 
     #[test]
     fn frames_are_announced_with_time_size_and_format() {
-        let mut log = FfmpegLog::default();
+        let mut log = FfmpegLog::new("avi".to_owned());
         assert_eq!(log.read_line(CONFIG), None);
         assert_eq!(log.time_base, (1, 12_800));
         let layout = SampleLayout::luma(320, 240, 8);
@@ -165,7 +238,7 @@ mod tests {
 
     #[test]
     fn a_frame_that_cannot_be_taken_is_no_silence() {
-        let mut log = FfmpegLog::default();
+        let mut log = FfmpegLog::new("avi".to_owned());
         let deep = FRAME.replace("fmt:gray", "fmt:gray10be");
         let layout = SampleLayout { is_big_endian: true, ..SampleLayout::luma(320, 240, 10) };
         assert_eq!(
@@ -187,13 +260,14 @@ mod tests {
 
     #[test]
     fn faults_are_counted_and_the_first_is_kept() {
-        let mut log = FfmpegLog::default();
+        let mut log = FfmpegLog::new("avi".to_owned());
         log.read_line("[warning] deprecated pixel format used");
         log.read_line(
             "[rawvideo @ 0x1] [error] Application provided invalid, non monotonically ...",
         );
         log.read_line("[info]   title : [error] s:1x1 fmt:gray pts:1");
         assert_eq!(log.problem(), None);
+        log.read_line(CONFIG);
         log.read_line("[avi @ 0x1] [warning] Packet corrupt (stream = 0, dts = 60).");
         assert_eq!(
             log.problem().unwrap(),
@@ -201,5 +275,39 @@ mod tests {
         );
         log.read_line("[error] second");
         assert!(log.problem().unwrap().starts_with("ffmpeg reports 2 faults, the first: Packet"));
+    }
+
+    #[test]
+    fn what_harms_no_frame_is_no_fault() {
+        const MAPPING: &str = "[info] Stream mapping:";
+        const SHORT: &str = "[h264 @ 0x1] [error] mmco: unref short failure";
+        let log_of = |lines: &[&str]| {
+            let mut log = FfmpegLog::new("avi".to_owned());
+            lines.iter().for_each(|line| drop(log.read_line(line)));
+            log.problem()
+        };
+        let sound = "[aac @ 0x1] [error] channel element 2.2 is not allocated";
+        let exif = "[mjpeg @ 0x1] [error] mjpeg: invalid TIFF header in EXIF data";
+        for harmless in [
+            &[sound, "[avi @ 0x1] [warning] Packet corrupt (stream = 1, dts = 60)."][..],
+            &[MAPPING, SHORT, CONFIG, FRAME],
+            &[MAPPING, CONFIG, FRAME, exif],
+        ] {
+            assert_eq!(log_of(harmless), None, "{harmless:?}");
+        }
+        for damage in [
+            &[MAPPING, sound][..],
+            &[CONFIG, sound],
+            &["[avi @ 0x1] [error] the index is cut"],
+            &["[fatal] no stream"],
+            &[MAPPING, CONFIG, FRAME, SHORT],
+            &[MAPPING, "[vist#0:0/h264 @ 0x1] [dec:h264 @ 0x2] [warning] corrupt decoded frame"],
+        ] {
+            assert!(log_of(damage).is_some(), "{damage:?}");
+        }
+        // A camera is not probed, so that no line can be told from that of its stream.
+        let mut log = FfmpegLog::new(String::new());
+        log.read_line(sound);
+        assert!(log.problem().is_some());
     }
 }

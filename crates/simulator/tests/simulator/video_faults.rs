@@ -53,6 +53,46 @@ fn a_damaged_video_is_not_complete() {
     assert!(seen.len() > 40 && problem.unwrap().starts_with("ffmpeg reports"));
 }
 
+/// ffmpeg reports errors for each of these, but none in a frame that is shown.
+#[test]
+fn intact_frames_are_complete_whatever_else_is_damaged() {
+    if !tools() {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let at = |name: &str| dir.path().join(name);
+    // Cut before a picture whose successors refer to pictures before it, without being encoded anew.
+    let source = ["-f", "lavfi", "-i", "testsrc2=size=80x60:rate=25:duration=4"];
+    let open = "open-gop=1:keyint=30:scenecut=0:bframes=3:b-pyramid=strict:ref=2:b-adapt=2";
+    let h264 = ["-pix_fmt", "yuv420p", "-c:v", "libx264", "-x264-params", open];
+    let (whole, cut) = (at("whole.mp4"), at("cut.mp4"));
+    let (from, to) = (whole.to_str().unwrap(), cut.to_str().unwrap());
+    ffmpeg(&[&source[..], &h264, &[from]].concat());
+    ffmpeg(&["-ss", "1.3", "-i", from, "-c", "copy", to]);
+    // Images with an APP1 segment of no sense.
+    let images = clip(dir.path(), "plain.mjpeg", &["-pix_fmt", "yuvj420p", "-frames:v", "5"]);
+    let mut odd = Vec::new();
+    for byte in fs::read(&images).unwrap() {
+        odd.push(byte);
+        if odd.ends_with(b"\xFF\xD8") {
+            odd.extend(b"\xFF\xE1\0\x10Exif\0\0XXXXXXXX");
+        }
+    }
+    fs::write(at("odd.mjpeg"), odd).unwrap();
+    let (from, to) = (at("odd.mjpeg"), at("odd.avi"));
+    ffmpeg(&["-i", from.to_str().unwrap(), "-c", "copy", to.to_str().unwrap()]);
+    // Sound of which no packet is valid.
+    let spoken = at("spoken.mp4");
+    let source = ["-f", "lavfi", "-i", "testsrc=size=80x60:rate=25:duration=2"];
+    let sine = ["-f", "lavfi", "-i", "sine=duration=2", "-c:a", "aac", "-pix_fmt", "yuv420p"];
+    let noise = ["-bsf:a", "noise=1", spoken.to_str().unwrap()];
+    ffmpeg(&[&source[..], &sine, &noise].concat());
+    for (path, frames) in [(cut, 67), (at("odd.avi"), 5), (spoken, 50)] {
+        let (seen, problem) = all(&path);
+        assert_eq!((seen.len(), problem), (frames, None), "{}", path.display());
+    }
+}
+
 #[test]
 fn a_change_of_size_ends_the_clip_unless_frames_are_scaled() {
     if !tools() {

@@ -161,8 +161,7 @@ fn decoded(ffmpeg: &DecodingParameters, name: &str, file: &Path) -> Result<Vec<u
         .arg(file)
         .args(["-frames:v", "1"]);
     let mut decoder =
-        VideoDecoder::from_invocation(&ffmpeg.with_frame_output(input), &Interrupt::default())
-            .unwrap();
+        VideoDecoder::from_invocation(ffmpeg, &ffmpeg.with_frame_output(input)).unwrap();
     let Some(shown) = decoder.next_announced().unwrap() else {
         return Err(decoder.finish().unwrap().unwrap_or_default());
     };
@@ -198,8 +197,14 @@ fn every_pixel_format_gives_its_luma_or_says_that_it_cannot() {
                     let conversion = conversion_filter(name);
                     let medium = VideoMedium::File(file.clone());
                     let (found, interrupt) = (found.clone(), Interrupt::default());
-                    let ffmpeg =
-                        DecodingParameters { found, medium, stream: 0, conversion, interrupt };
+                    let ffmpeg = DecodingParameters {
+                        found,
+                        medium,
+                        container: String::new(),
+                        stream: 0,
+                        conversion,
+                        interrupt,
+                    };
                     let seen = match decoded(&ffmpeg, name, &file) {
                         Ok(seen) => seen,
                         Err(problem) => {
