@@ -17,6 +17,7 @@
 //   rises             reports how often interrupt_o rose since the last of these commands, and how often at the edge of a `clear`
 //   align P           waits for a clock whose number is P modulo 2
 //   clocks N, idle N  waits N clocks, or until no word has been on the port for N clocks
+//   taken             waits until the write that was started last has been taken
 //   within            waits until a word of a packet has been taken that is not the last
 //   reset N           resets the core for N clocks
 //   patience N        a command that waits for more than N clocks is reported as stuck
@@ -147,6 +148,8 @@ class Bench {
         } else if (what == "rises") {
             std::printf("rises %llu %llu %llu\n", clock_, rises_, met_);
             rises_ = met_ = 0;
+        } else if (what == "taken") {
+            return wait([this] { return writes_.empty() && !write_.busy; });
         } else if (what == "within") {
             return wait([this] { return within_; });
         } else if (what == "align") {

@@ -181,6 +181,16 @@ mod tests {
         assert_eq!(codes(&halves, (4, 4), 4), [3]);
     }
 
+    /// The side from (0, 0) to (4, 4) goes through the centers of four pixels.
+    #[test]
+    fn a_center_on_a_side_belongs_to_what_is_on_its_right() {
+        let keen = |corners: &[[u32; 2]]| codes(&[area(RegionClass::Keen, corners)], (4, 4), 1);
+        let right = keen(&[[0, 0], [4, 4], [4, 0]]);
+        let left = keen(&[[0, 0], [4, 4], [0, 4]]);
+        assert_eq!(right, [2, 2, 2, 2, 0, 2, 2, 2, 0, 0, 2, 2, 0, 0, 0, 2]);
+        assert!(left.iter().zip(&right).all(|(left, right)| left + right == 2));
+    }
+
     /// Every pixel of random polygons against the definition, in floating point.
     #[test]
     fn polygons_have_the_pixels_of_their_definition() {

@@ -100,9 +100,12 @@ impl CosimLevel {
     /// Fails if the grid makes a frame that no design can have.
     pub fn design(self, design: &Design) -> Result<Design, ConfigError> {
         match self {
-            Self::Full => Ok(design.clone()),
             Self::Rpu => Ok(design.lone_unit()),
-            Self::Rcm { columns, rows } => with_grid(design, columns, rows),
+            // A frame of another size has no areas of zones.
+            Self::Rcm { columns, rows } if !self.is_whole(design) => {
+                with_grid(design, columns, rows)
+            }
+            Self::Rcm { .. } | Self::Full => Ok(design.clone()),
         }
     }
 }
@@ -153,5 +156,15 @@ mod tests {
         assert_eq!(folded("", 38), grid(3, 13));
         assert_eq!(folded("", 784), grid(28, 28));
         assert_eq!(folded("[frame]\nwidth = 64\nheight = 16\n", 9), grid(5, 2));
+    }
+
+    #[test]
+    fn a_sample_of_all_regions_has_the_areas_of_the_zones() {
+        let toml = "[frame]\nwidth = 24\nheight = 16\n\
+                    [[zones.areas]]\nclass = \"off\"\nrectangle = [0, 0, 8, 8]\n";
+        let design = DesignConfig::from_toml(toml).unwrap().validate().unwrap();
+        let sample = CosimLevel::small_array(&design);
+        assert!(sample.is_whole(&design));
+        assert_eq!(sample.design(&design).unwrap().fingerprint(), design.fingerprint());
     }
 }

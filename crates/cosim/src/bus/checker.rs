@@ -73,6 +73,15 @@ impl<'a> BusChecker<'a> {
         record: &BusRecord,
         facts: &mut BusSituationCounts,
     ) -> Result<BusAgreement, BusMismatch> {
+        let versions: Vec<Vec<(u64, u16)>> =
+            record.sessions.iter().map(|heard| self.map_versions(heard)).collect();
+        facts.commits_before_reset += versions
+            .windows(2)
+            .filter(|pair| match (pair[0].last(), pair[1].first()) {
+                (Some((_, before)), Some((_, after))) => before != after,
+                _ => false,
+            })
+            .count() as u64;
         let mut agreed = BusAgreement::default();
         let first_breach = record.violations.first().map(BusMismatch::from);
         let end = record.clocks.unwrap_or_default();
@@ -93,6 +102,14 @@ impl<'a> BusChecker<'a> {
             agreed += found;
         }
         first_breach.map_or(Ok(agreed), Err)
+    }
+
+    /// Returns the versions of the map of classes that were read, each with its clock.
+    fn map_versions(&self, heard: &SessionRecord) -> Vec<(u64, u16)> {
+        let control = self.registers.iter().find(|register| register.name == "zone_control");
+        let Some(control) = control else { return Vec::new() };
+        let reads = heard.reads.iter().filter(|(_, address, _)| *address == control.address);
+        reads.map(|&(clock, _, value)| (clock, (value >> 16) as u16)).collect()
     }
 
     /// Returns the bit mask of an event.
@@ -127,6 +144,9 @@ struct SessionChecker<'a> {
     camera_before: usize,
     facts: &'a mut BusSituationCounts,
     open: Option<OpenFrame>,
+    /// The versions of the map of classes that were read, each with its clock.
+    map_versions: Vec<(u64, u16)>,
+    map_version: u16,
     /// The smallest number that the next frame may have.
     next_frame: usize,
     is_first: bool,
@@ -157,6 +177,8 @@ impl<'a> SessionChecker<'a> {
             camera_before: 0,
             facts,
             open: None,
+            map_versions: Vec::new(),
+            map_version: 0,
             next_frame: 0,
             is_first: true,
             has_skipped: false,
@@ -174,6 +196,7 @@ impl<'a> SessionChecker<'a> {
         heard: &SessionRecord,
         end: u64,
     ) -> Result<BusAgreement, BusMismatch> {
+        self.map_versions = self.checker.map_versions(heard);
         for recorded in &heard.packets {
             let frame =
                 self.open.as_ref().map_or(self.next_frame as u64, |open| open.number.into());
@@ -254,13 +277,18 @@ impl<'a> SessionChecker<'a> {
         self.next_frame = at + 1;
         let first = std::mem::take(&mut self.is_first) || sent.is_first;
         let map_version = info.map_version;
-        let admitted: Vec<u16> = sent.maps.iter().map(|(version, _)| *version).collect();
-        let is_admitted =
-            admitted.contains(&map_version) || admitted.is_empty() && map_version == 0;
-        if !is_admitted {
-            let at = format!("version {map_version} of the map of classes, expected {admitted:?}");
+        if !sent.maps.admit(map_version) {
+            let (first, count) = (sent.maps.first_version, sent.maps.maps.len());
+            let at = format!(
+                "version {map_version} of the map of classes, expected one of {count} from {first} on"
+            );
             return Err(BusMismatch::from_presence(at, false));
         }
+        let newest = self.map_versions.iter().rfind(|(clock, _)| *clock < left);
+        self.facts.frames_behind_commit +=
+            u64::from(newest.is_some_and(|&(_, version)| version != map_version));
+        let before = std::mem::replace(&mut self.map_version, map_version);
+        self.facts.maps_by_turns += u64::from(sent.maps.take_turns && before != map_version);
         let own = self.checker.layout.info().clone();
         let expected = FrameInfo { first, time: info.time, map_version, ..own };
         if *info != expected {
@@ -299,9 +327,8 @@ impl<'a> SessionChecker<'a> {
         if sent.camera_index != self.camera {
             (self.camera_before, self.camera) = (self.camera, sent.camera_index);
         }
-        let mut maps = sent.maps.iter();
-        if let Some((version, map)) = maps.find(|(version, _)| *version == map_version) {
-            self.facts.maps += u64::from(*version > 0);
+        if let Some(map) = sent.maps.map(map_version) {
+            self.facts.maps += u64::from(map_version > 0);
             self.model.set_classes(map);
         }
         let missed = self.stale_outcomes(sent);

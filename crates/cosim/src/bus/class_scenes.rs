@@ -2,7 +2,7 @@
 //! Scenes that write maps of classes into the window of a core while frames come.
 
 use super::scenes::{BusScene, SceneBuilder, taken_frame};
-use super::traffic::{ExpectedFrame, ExpectedRead, FrameFate, Traffic};
+use super::traffic::{ALL_BYTES, ExpectedFrame, ExpectedRead, FrameFate, FrameMaps, Traffic};
 use foveate_design::{CLASSES_PER_WORD, RegionClass, class_word};
 use foveate_frame::Frame;
 
@@ -26,7 +26,16 @@ impl ClassBanks {
 
     /// Returns the frame with the committed map.
     fn frame(&self, frame: Frame) -> ExpectedFrame {
-        ExpectedFrame { maps: vec![(self.version, self.committed.clone())], ..taken_frame(frame) }
+        let maps = vec![self.committed.clone()];
+        let maps = FrameMaps { first_version: self.version, maps, take_turns: false };
+        ExpectedFrame { maps, ..taken_frame(frame) }
+    }
+
+    /// Returns the frame with either map, while commits without writes follow each other.
+    fn frame_of_any_turn(&self, frame: Frame) -> ExpectedFrame {
+        let maps = vec![self.committed.clone(), self.other.clone()];
+        let maps = FrameMaps { first_version: self.version, maps, take_turns: true };
+        ExpectedFrame { maps, ..taken_frame(frame) }
     }
 }
 
@@ -40,6 +49,8 @@ impl<'a> SceneBuilder<'a> {
         vec![
             ("maps of classes", self.class_maps(banks())),
             ("maps of classes at any time", self.class_maps_at_any_time(banks())),
+            ("maps of classes that take turns", self.class_maps_by_turns(banks())),
+            ("maps of classes before FRAME leaves", self.class_maps_before_frame(banks())),
             ("thresholds of classes", self.class_thresholds(banks())),
         ]
     }
@@ -48,6 +59,9 @@ impl<'a> SceneBuilder<'a> {
     fn class_maps(&mut self, mut banks: ClassBanks) -> Traffic<'a> {
         let mut traffic = self.waiting_traffic();
         let middle = self.design().height() / 2;
+        // Both banks begin with the map of the configuration.
+        self.commit_map(&mut traffic, banks.version, false);
+        banks.commit();
         for turn in 0..MAPS {
             let frame = banks.frame(self.frame_source().noise_frame());
             let map = self.random_map();
@@ -102,22 +116,97 @@ impl<'a> SceneBuilder<'a> {
         traffic.read(control, ExpectedRead::Value(u32::from(banks.version) << 16));
         traffic.send_frame(banks.frame(self.frame_source().noise_frame()));
         traffic.send_frame(banks.frame(self.frame_source().noise_frame()));
+        traffic.drain();
+        // A reset clears the address. A commit that begins at the edge of a reset waits for its end.
+        let address = self.address("zone_address");
+        traffic.write(address, 1);
+        traffic.read(control, ExpectedRead::Value(u32::from(banks.version) << 16));
+        traffic.wait_for_accesses();
+        traffic.write_bytes(control, 1, ALL_BYTES);
+        traffic.wait_for_taken_write();
+        traffic.wait_clocks(1);
+        traffic.reset_for(1);
+        banks.commit();
+        traffic.read(address, ExpectedRead::Value(0));
+        traffic.read(control, ExpectedRead::Value(u32::from(banks.version) << 16));
+        traffic.write(address, 1);
+        traffic.reset_for(1);
+        self.enable_waiting(traffic);
+        traffic.read(address, ExpectedRead::Value(0));
+        traffic.send_frame(banks.frame(self.frame_source().noise_frame()));
+    }
+
+    /// Commits at every clock at which a write can start, while frames begin and pass, and while a restart
+    /// waits for their end.
+    fn class_maps_by_turns(&mut self, mut banks: ClassBanks) -> Traffic<'a> {
+        let mut traffic = self.waiting_traffic();
+        let map = self.random_map();
+        self.write_map(&mut traffic, &map, 0);
+        traffic.wait_for_accesses();
+        banks.other = map;
+        let commits = self.address("zone_control");
+        traffic.clear_repeatedly(commits, 1);
+        // Where an array waits for the sink, the first word of a frame follows long after its beginning.
+        traffic.allow_drops();
+        let last_line = self.design().height() - 1;
+        for turn in 0..FREE_FRAMES {
+            let frame = banks.frame_of_any_turn(self.frame_source().noise_frame());
+            traffic.send_frame_around(frame, last_line, |traffic| {
+                traffic.hold_sink(if turn.is_multiple_of(2) { traffic.drain_clocks() } else { 0 });
+            });
+        }
+        traffic.stop_clearing();
+        let (control, middle) = (self.address("control"), self.design().height() / 2);
+        let restart = self.control_bits(&["enable", "wait", "restart"]);
+        for turn in 0..FREE_FRAMES {
+            let frame = banks.frame_of_any_turn(self.frame_source().noise_frame());
+            let frame = ExpectedFrame { is_first: turn > 0, ..frame };
+            traffic.send_frame_around(frame, middle, |traffic| traffic.write(control, restart));
+            traffic.clear_repeatedly(commits, 1);
+            traffic.drain();
+            traffic.stop_clearing();
+        }
+        self.end_session(&mut traffic, 0);
+        traffic
+    }
+
+    /// Commits a map within a frame whose FRAME packet waits for the sink.
+    fn class_maps_before_frame(&mut self, mut banks: ClassBanks) -> Traffic<'a> {
+        let mut traffic = self.waiting_traffic();
+        traffic.allow_drops();
+        let last_line = self.design().height() - 1;
+        for _ in 0..2 {
+            let map = self.random_map();
+            self.write_map(&mut traffic, &map, 0);
+            traffic.wait_for_accesses();
+            banks.other = map;
+            let [before, frame] = [(); 2].map(|()| banks.frame(self.frame_source().noise_frame()));
+            traffic.send_frame_around(before, last_line, |traffic| {
+                traffic.hold_sink(traffic.drain_clocks());
+            });
+            traffic.send_frame_around(frame, 1, |traffic| {
+                self.commit_map(traffic, banks.version, true);
+                traffic.wait_for_accesses();
+            });
+            banks.commit();
+            traffic.drain();
+        }
+        self.end_session(&mut traffic, 0);
+        traffic
     }
 
     /// Commits maps at times that have nothing to do with those of the frames. The version in each
     /// FRAME says which of the maps the frame must use.
-    fn class_maps_at_any_time(&mut self, mut banks: ClassBanks) -> Traffic<'a> {
+    fn class_maps_at_any_time(&mut self, banks: ClassBanks) -> Traffic<'a> {
         let mut traffic = self.waiting_traffic();
-        let mut maps = vec![(banks.version, banks.committed.clone())];
-        for _ in 0..FREE_FRAMES {
-            let map = self.random_map();
-            banks.other.clone_from(&map);
-            banks.commit();
-            maps.push((banks.version, map));
-        }
+        let mut maps = FrameMaps {
+            first_version: banks.version,
+            maps: vec![banks.committed],
+            take_turns: false,
+        };
+        maps.maps.extend((0..FREE_FRAMES).map(|_| self.random_map()));
         let (height, control) = (self.design().height(), self.address("zone_control"));
-        for number in 1..maps.len() {
-            let map = maps[number].1.clone();
+        for map in &maps.maps[1..] {
             let mut frame = || ExpectedFrame {
                 maps: maps.clone(),
                 ..taken_frame(self.frame_source().noise_frame())
@@ -126,7 +215,7 @@ impl<'a> SceneBuilder<'a> {
             let [frame, next] = [frame(), frame()];
             let lines = height - self.random().up_to_u32(height / 4);
             traffic.send_frame_around(frame, lines, |traffic| {
-                self.write_map(traffic, &map, 0);
+                self.write_map(traffic, map, 0);
                 traffic.write(control, 1);
             });
             traffic.send_frame(next);
@@ -147,7 +236,9 @@ impl<'a> SceneBuilder<'a> {
             self.commit_map(&mut traffic, banks.version, false);
             banks.other.clone_from(&map);
             banks.commit();
-            self.send_threshold_sweep(&mut traffic, class, &[(banks.version, map)]);
+            let maps =
+                FrameMaps { first_version: banks.version, maps: vec![map], take_turns: false };
+            self.send_threshold_sweep(&mut traffic, class, &maps);
         }
         self.end_session(&mut traffic, 0);
         traffic
@@ -190,9 +281,12 @@ impl<'a> SceneBuilder<'a> {
     fn commit_map(&self, traffic: &mut Traffic<'a>, version: u16, waits: bool) {
         let [word, address, control] =
             ["zone_word", "zone_address", "zone_control"].map(|name| self.address(name));
+        let version = u32::from(version) << 16;
+        traffic.write_bytes(control, 1, ALL_BYTES - 1);
+        traffic.read(control, ExpectedRead::Value(version));
         traffic.write(control, 1);
         traffic.read(address, ExpectedRead::Value(0));
-        let version = u32::from(version + 1) << 16;
+        let version = version + (1 << 16);
         if waits {
             traffic.read(control, ExpectedRead::Value(version | 2));
             traffic.write(word, u32::MAX);

@@ -3,7 +3,7 @@
 
 use super::checker::TICK_RATE;
 use super::frame_source::BusFrameSource;
-use super::traffic::{ExpectedFrame, ExpectedRead, FrameFate, Traffic};
+use super::traffic::{ExpectedFrame, ExpectedRead, FrameFate, FrameMaps, Traffic};
 use super::video_damage::VideoDamage;
 use crate::stimulus::Random;
 use foveate_design::{Camera, Design, RasterDesign, RasterTiming, RegionClass};
@@ -326,7 +326,7 @@ impl<'a> SceneBuilder<'a> {
 
     fn every_threshold(&mut self) -> Traffic<'a> {
         let mut traffic = self.waiting_traffic();
-        self.send_threshold_sweep(&mut traffic, RegionClass::Normal, &[]);
+        self.send_threshold_sweep(&mut traffic, RegionClass::Normal, &FrameMaps::default());
         self.end_session(&mut traffic, 0);
         traffic
     }
@@ -337,7 +337,7 @@ impl<'a> SceneBuilder<'a> {
         &mut self,
         traffic: &mut Traffic<'a>,
         class: RegionClass,
-        maps: &[(u16, Vec<RegionClass>)],
+        maps: &FrameMaps,
     ) {
         let middle = self.design.height() / 2;
         let others: &'a [OtherThresholds] = self.other_thresholds;
@@ -348,7 +348,7 @@ impl<'a> SceneBuilder<'a> {
         for (next, registers) in sets {
             let sent = ExpectedFrame {
                 camera_index,
-                maps: maps.to_vec(),
+                maps: maps.clone(),
                 ..taken_frame(self.frame_source.noise_frame())
             };
             let written: Vec<_> = registers.iter().filter_map(threshold_register).collect();
@@ -663,7 +663,7 @@ pub(super) fn taken_frame(frame: Frame) -> ExpectedFrame {
         fate: FrameFate::Taken,
         is_first: false,
         camera_index: 0,
-        maps: Vec::new(),
+        maps: FrameMaps::default(),
     }
 }
 

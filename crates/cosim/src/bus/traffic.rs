@@ -33,9 +33,32 @@ pub(super) struct ExpectedFrame {
     pub(super) is_first: bool,
     /// The index of the camera whose thresholds hold for the frame.
     pub(super) camera_index: usize,
-    /// The maps of classes that the frame may use, each with its version. Without any, the frame
-    /// uses the map of the configuration, with version 0.
-    pub(super) maps: Vec<(u16, Vec<RegionClass>)>,
+    pub(super) maps: FrameMaps,
+}
+
+/// The maps of classes that a frame may use. The version in its FRAME packet says which one it is.
+/// Without any, the frame uses the map of the configuration, with version 0.
+#[derive(Clone, Debug, Default)]
+pub(super) struct FrameMaps {
+    /// The version of the first map. The next ones have the next versions.
+    pub(super) first_version: u16,
+    pub(super) maps: Vec<Vec<RegionClass>>,
+    /// True if the maps take turns without an end.
+    pub(super) take_turns: bool,
+}
+
+impl FrameMaps {
+    /// Returns true if the frame may have this version of the map.
+    pub(super) fn admit(&self, version: u16) -> bool {
+        self.map(version).is_some() || self.maps.is_empty() && version == 0
+    }
+
+    /// Returns the map of a version.
+    pub(super) fn map(&self, version: u16) -> Option<&[RegionClass]> {
+        let behind = usize::from(version.wrapping_sub(self.first_version));
+        let turn = if self.take_turns { behind % self.maps.len().max(1) } else { behind };
+        self.maps.get(turn).map(Vec::as_slice)
+    }
 }
 
 /// The expected value of a register.
@@ -217,12 +240,22 @@ impl<'a> Traffic<'a> {
         self.push_line(&format!("clear {address:x} {value:x}"));
     }
 
-    /// Stops the repeated write, and expects the number of times that the event was seen.
-    pub(super) fn expect_event_count(&mut self, event: &'static str, raised: ExpectedEventCount) {
+    /// Stops the repeated write.
+    pub(super) fn stop_clearing(&mut self) {
         self.push_line("clear 0 0");
         self.push_line("join");
+    }
+
+    /// Stops the repeated write, and expects the number of times that the event was seen.
+    pub(super) fn expect_event_count(&mut self, event: &'static str, raised: ExpectedEventCount) {
+        self.stop_clearing();
         self.push_line("rises");
         self.current_session().event_counts.push((event, raised));
+    }
+
+    /// Waits for the edge at which the core takes the write that was started last.
+    pub(super) fn wait_for_taken_write(&mut self) {
+        self.push_line("taken");
     }
 
     /// Waits until a word of a packet has been taken that is not its last.

@@ -91,6 +91,11 @@ impl BenchScript {
         let writer = ScriptWriter::new(part, &mut random);
         // A reset must follow frames that are leaving or lost, so their sequences come first.
         let mut sequences = vec![writer.leaving_sequence(is_wide), writer.high_minimum_sequence()];
+        if part.has_class_memory() {
+            let frames = writer.wide_frames();
+            let drained = BenchSequence::drained(frames);
+            sequences.push(BenchSequence { classes: ClassChoice::Configured, ..drained });
+        }
         sequences.extend(writer.lossy_sequence(is_wide));
         sequences.push(writer.usual_sequence());
         if let Some(periphery) = part.periphery() {

@@ -46,6 +46,12 @@ pub(crate) struct BusSituationCounts {
     pub(crate) behind_skipped: u64,
     /// The number of frames whose map of classes was written.
     pub(crate) maps: u64,
+    /// The number of frames with another map than the frame before, while the core commits all the time.
+    pub(crate) maps_by_turns: u64,
+    /// The number of FRAME packets that left after a version behind theirs was read.
+    pub(crate) frames_behind_commit: u64,
+    /// The number of resets before which a commit was taken that had not been read.
+    pub(crate) commits_before_reset: u64,
 }
 
 /// A situation of a core on AXI.
@@ -96,6 +102,21 @@ const SITUATIONS: &[BusSituation] = &[
         name: "a frame uses a map of classes that was written",
         is_possible: |design| design.zones().is_some(),
         count: |facts| facts.maps,
+    },
+    BusSituation {
+        name: "a map of classes is committed at the end of each frame",
+        is_possible: |design| design.zones().is_some(),
+        count: |facts| facts.maps_by_turns,
+    },
+    BusSituation {
+        name: "a FRAME packet leaves behind the next commit",
+        is_possible: |design| design.zones().is_some(),
+        count: |facts| facts.frames_behind_commit,
+    },
+    BusSituation {
+        name: "a commit waits for the end of a reset",
+        is_possible: |design| design.zones().is_some(),
+        count: |facts| facts.commits_before_reset,
     },
 ];
 

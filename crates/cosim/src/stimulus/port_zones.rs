@@ -39,8 +39,10 @@ pub(super) struct PortZones {
 struct ClassMemoryWriter {
     /// The number of words that the address can number, also beyond the map.
     addresses: usize,
-    /// The choice whose map the memory holds, if it is known.
-    held: Option<ClassChoice>,
+    /// The choices whose maps the committed and the other bank hold, where they are known.
+    held: [Option<ClassChoice>; 2],
+    /// True until the first commit.
+    is_new: bool,
     /// The inputs that write the map of a sequence, of the next clocks.
     planned: VecDeque<ClassMapInputs>,
     /// True if the planned inputs are applied, one at each clock.
@@ -55,7 +57,8 @@ impl PortZones {
         let configured = design.zones()?.configured_classes();
         let memory = design.has_class_memory().then(|| ClassMemoryWriter {
             addresses: 1 << design.class_address_bits(),
-            held: Some(ClassChoice::Configured),
+            held: [Some(ClassChoice::Configured); 2],
+            is_new: true,
             planned: VecDeque::new(),
             is_loading: false,
             inputs: ClassMapInputs::default(),
@@ -134,13 +137,29 @@ impl ClassMemoryWriter {
         self.is_loading = false;
         self.planned.clear();
         match choice {
-            ClassChoice::Changing => self.held = None,
+            ClassChoice::Changing => self.held = [None; 2],
             ClassChoice::Normal | ClassChoice::Configured => {
-                if self.held.replace(choice) != Some(choice) {
-                    self.planned = map_inputs(classes);
+                // The second bank is committed before the first write, so that its first map is used.
+                if std::mem::take(&mut self.is_new) {
+                    self.plan_commit(&[]);
+                }
+                if self.held[0] != Some(choice) {
+                    let is_written = self.held[1] == Some(choice);
+                    self.held[1] = Some(choice);
+                    self.plan_commit(if is_written { &[] } else { classes });
                 }
             }
         }
+    }
+
+    /// Plans the writes of a map word by word, and its commit, one clock after the other. At the last clock
+    /// nothing is written, so that the next frame uses the map.
+    fn plan_commit(&mut self, classes: &[RegionClass]) {
+        self.held.swap(0, 1);
+        let words = classes.chunks(CLASSES_PER_WORD as usize).map(class_word);
+        let write = |(address, word)| ClassMapInputs { write: true, address, word, commit: false };
+        let commit = ClassMapInputs { commit: true, ..ClassMapInputs::default() };
+        self.planned.extend((0..).zip(words).map(write).chain([commit, ClassMapInputs::default()]));
     }
 
     fn begin_clock(&mut self, changes: bool, random: &mut Random) {
@@ -162,13 +181,4 @@ impl ClassMemoryWriter {
             commit: random.one_in(2 * self.addresses as u64),
         }
     }
-}
-
-/// Returns the inputs that write a map word by word and commit it, one clock after the other. At the
-/// last clock nothing is written, so that the next frame uses the map.
-fn map_inputs(classes: &[RegionClass]) -> VecDeque<ClassMapInputs> {
-    let words = classes.chunks(CLASSES_PER_WORD as usize).map(class_word);
-    let write = |(address, word)| ClassMapInputs { write: true, address, word, commit: false };
-    let commit = ClassMapInputs { commit: true, ..ClassMapInputs::default() };
-    (0..).zip(words).map(write).chain([commit, ClassMapInputs::default()]).collect()
 }

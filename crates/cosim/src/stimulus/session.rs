@@ -153,7 +153,7 @@ impl<'a> StimulusSession<'a> {
             sink: (sequence.sink_stalls, sink_turn),
             store_fault: sequence.store_fault,
             border: self.border(round + number),
-            classes: sequence.aim.classes(),
+            classes: sequence.classes,
         })?;
         for frame in 0..sequence.frame_count() {
             if frame > 0 {

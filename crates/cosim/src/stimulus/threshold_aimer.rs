@@ -40,7 +40,7 @@ pub(crate) enum ThresholdAim {
 impl ThresholdAim {
     /// Returns the classes of regions, which change unless the purpose of the aim is that of normal
     /// regions.
-    pub(super) fn classes(self) -> ClassChoice {
+    pub(super) const fn classes(self) -> ClassChoice {
         match self {
             Self::Configured | Self::Exact | Self::Largest | Self::EveryClock => {
                 ClassChoice::Changing

@@ -9,6 +9,7 @@ mod serial;
 
 use super::external_store::StoreFault;
 use super::frame_delivery::FrameDelivery;
+use super::port_zones::ClassChoice;
 use super::sequence_end::SequenceEnd;
 use super::stimulus_pattern::{StimulusPattern, Texture};
 use super::threshold_aimer::ThresholdAim;
@@ -35,6 +36,8 @@ pub(super) struct FrameSequence {
     pub(super) sink_stalls: bool,
     /// The fault of the external frame store, if there is one.
     pub(super) store_fault: StoreFault,
+    /// The classes of the regions, in a core with zones.
+    pub(super) classes: ClassChoice,
 }
 
 impl FrameSequence {
@@ -67,6 +70,7 @@ impl FrameSequence {
             aim,
             sink_stalls: false,
             store_fault: StoreFault::None,
+            classes: aim.classes(),
         }
     }
 
@@ -126,6 +130,15 @@ const fn rough_sequence() -> FrameSequence {
     FrameSequence { is_mixed: false, ..rough }
 }
 
+/// Returns a sequence in which the regions have the classes of the configuration, from the second bank of
+/// the memory of classes, into which nothing has been written.
+const fn first_map_sequence() -> FrameSequence {
+    use StimulusPattern::{Noise, Zero};
+    let patterns = &[Noise, Zero, Noise];
+    let first = FrameSequence::with_aim(ThresholdAim::Smallest, "first map of classes", patterns);
+    FrameSequence { is_mixed: false, classes: ClassChoice::Configured, ..first }
+}
+
 /// Returns all sequences of a design, the most telling first. Sequences of damaged frames are behind
 /// the others, if the simulated hardware synchronizes to the start of a frame.
 pub(super) fn sequences(design: &Design, has_frame_sync: bool) -> Vec<FrameSequence> {
@@ -134,6 +147,9 @@ pub(super) fn sequences(design: &Design, has_frame_sync: bool) -> Vec<FrameSeque
         Hardware::Serial(own) => serial::sequences(design.with_hardware(own)),
         Hardware::Raster(own) => raster::sequences(design.with_hardware(own)),
     };
+    if design.has_class_memory() {
+        sequences.insert(0, first_map_sequence());
+    }
     sequences.extend(certain_sequences());
     if design.feature_kinds().contains(&FeatureKind::Surface) {
         sequences.push(rough_sequence());

@@ -31,7 +31,17 @@ pub(crate) const ZONED: &[&str] = &[
     "denoise.filter='none'",
     "spatial=[{feature='variance'}]",
     "render.irrelevant='mean'",
-    "zones={off_level=20,keen={temporal={level=2},spatial=[{feature='variance',min_score=1}]}}",
+    "zones={off_level=20,areas=[{class='off',rectangle=[0,0,32,44]}],keen={temporal={level=2},spatial=[{feature='variance',min_score=1}]}}",
+];
+
+/// A core with zones whose array waits for the sink behind a frame, because the frame has two rows.
+pub(crate) const SHALLOW: &[&str] = &[
+    "frame={width=64,height=8}",
+    "region.size=4",
+    "denoise.filter='none'",
+    "spatial=[{feature='variance'}]",
+    "render.irrelevant='mean'",
+    "zones={off_level=20,areas=[{class='off',rectangle=[0,0,32,8]}],keen={temporal={level=2}}}",
 ];
 
 /// A fault: one edit of one file, and the check that must find it.
@@ -49,7 +59,7 @@ pub(crate) struct BusFault {
     pub(crate) to: &'static str,
 }
 
-pub(crate) const FAULTS: [BusFault; 16] = [
+pub(crate) const FAULTS: [BusFault; 24] = [
     BusFault {
         check: "the bytes of a packet",
         port: "m_axis_packets",
@@ -169,6 +179,70 @@ pub(crate) const FAULTS: [BusFault; 16] = [
         module: "rcm_axi",
         from: "if (zone_write) zone_address_q",
         to: "if (zone_word_write) zone_address_q",
+    },
+    BusFault {
+        check: "the version of a map in a FRAME packet that waits",
+        port: "m_axis_packets",
+        design: ZONED,
+        module: "rcm_axi",
+        from: "if (frame_begins) frame_version_q <= version_q;",
+        to: "frame_version_q <= version_q;",
+    },
+    BusFault {
+        check: "a commit between the beginning of a frame and its first word",
+        port: "m_axis_packets",
+        design: SHALLOW,
+        module: "rcm_axi",
+        from: "commit_q && !rst && !frame_begins && !opening_q",
+        to: "commit_q && !rst && !frame_begins",
+    },
+    BusFault {
+        check: "a commit at the edge of a restart",
+        port: "m_axis_packets",
+        design: ZONED,
+        module: "rcm_axi",
+        from: "!zone_write && !zone_commit;",
+        to: "!zone_write;",
+    },
+    BusFault {
+        check: "the bytes of a commit",
+        port: "m_axis_packets",
+        design: ZONED,
+        module: "axi_registers",
+        from: "wstrb_i[0]) zone_control_commit_q",
+        to: "|wstrb_i) zone_control_commit_q",
+    },
+    BusFault {
+        check: "the address after a reset",
+        port: "s_axi",
+        design: ZONED,
+        module: "rcm_axi",
+        from: "        if (rst) zone_address_q <= ",
+        to: "        if (1'b0) zone_address_q <= ",
+    },
+    BusFault {
+        check: "a commit that waits at a reset",
+        port: "s_axi",
+        design: ZONED,
+        module: "rcm_axi",
+        from: "        if (rst) zone_address_q <= ",
+        to: "        if (rst) commit_q <= 1'b0;\n        if (rst) zone_address_q <= ",
+    },
+    BusFault {
+        check: "a commit in a reset",
+        port: "m_axis_packets",
+        design: ZONED,
+        module: "rcm_axi",
+        from: "zone_commit = commit_q && !rst",
+        to: "zone_commit = commit_q",
+    },
+    BusFault {
+        check: "the first map in the second bank",
+        port: "m_axis_packets",
+        design: ZONED,
+        module: "class_memory",
+        from: "words_q[WORDS+i] = FIRST[32*i+:32]",
+        to: "words_q[WORDS+i] = 32'd0",
     },
     BusFault {
         check: "a version that stays at a reset",
