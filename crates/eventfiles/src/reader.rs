@@ -20,10 +20,11 @@ enum FormatReader<R> {
     Aedat4(Aedat4Reader<R>),
 }
 
-/// Returns true if a file with these first bytes, of which there is at least one, may be in a format of this crate.
+/// Returns true if a file with these first bytes may be in a format of this crate. A text whose first line is a
+/// comment, `# ...`, is not.
 #[must_use]
 pub fn is_event_file(start: &[u8]) -> bool {
-    matches!(start.first(), Some(&(evt::HEADER_START | aedat4::HEADER_START)))
+    start.first() == Some(&evt::HEADER_START) || start.starts_with(b"#!")
 }
 
 impl<R: BufRead> EventReader<R> {

@@ -331,7 +331,7 @@ fn open_raw_input(
         let stream = open_unpacked(input)?;
         return Ok(Box::new(open_raw(shown, None, stream, layout, bits, options)?));
     }
-    let file = std::fs::File::open(input).map_err(|error| FootageError::Unreadable {
+    let file = foveate_reading::open_file(input).map_err(|error| FootageError::Unreadable {
         path: input.to_path_buf(),
         problem: error.to_string(),
     })?;

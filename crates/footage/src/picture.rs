@@ -135,7 +135,7 @@ fn open_file(path: &Path) -> std::io::Result<File> {
     if !std::fs::metadata(path)?.is_file() {
         return Err(std::io::Error::other("it is not a file"));
     }
-    File::open(path)
+    foveate_reading::open_file(path)
 }
 
 /// Returns true if a file starts as an image of a supported type does.

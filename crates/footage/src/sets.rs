@@ -5,18 +5,17 @@
 pub(crate) mod cifar;
 pub(crate) mod idx;
 
-use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
-use foveate_reading::{GZIP_MAGIC, unpacked};
+use foveate_reading::{GZIP_MAGIC, open_file, unpacked};
 use foveate_toolchain::{Interrupt, InterruptibleReader, open_interruptibly};
 
 use crate::FootageError;
 
 /// Opens a file, and unpacks it if it is gzipped.
 pub(crate) fn open_unpacked(path: &Path) -> Result<Box<dyn BufRead + Send>, FootageError> {
-    unpacked(File::open(path).map_err(unreadable(path))?).map_err(unreadable(path))
+    unpacked(open_file(path).map_err(unreadable(path))?).map_err(unreadable(path))
 }
 
 /// Opens a FIFO or another pipe that can be read once.
@@ -33,7 +32,7 @@ pub(crate) fn open_pipe(
 
 /// Returns true if a file is gzipped.
 fn is_packed(path: &Path) -> Result<bool, FootageError> {
-    let mut file = BufReader::new(File::open(path).map_err(unreadable(path))?);
+    let mut file = BufReader::new(open_file(path).map_err(unreadable(path))?);
     Ok(file.fill_buf().map_err(unreadable(path))?.starts_with(&GZIP_MAGIC))
 }
 

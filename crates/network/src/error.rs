@@ -33,7 +33,7 @@ pub enum NetworkError {
         node: String,
         /// The operator with its domain.
         operator: String,
-        /// Advice that begins with a semicolon; empty where it has been given before.
+        /// The reason, or advice, with the punctuation before it; empty where it has been given before.
         advice: &'static str,
     },
     /// A node is not valid, or uses its operator in a way that is not supported.

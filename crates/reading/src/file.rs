@@ -1,14 +1,38 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Reads small files as a whole.
+//! Opens input files, and reads small ones as a whole.
 
 use std::fs::File;
-use std::io::{self, Read};
+use std::io::{self, Read, Seek};
 use std::path::Path;
 
 use crate::LimitedReader;
 
 /// The largest size of a settings file in bytes; a typical one has a few KiB.
 pub const SETTINGS_LIMIT: u64 = 1 << 20;
+
+/// The beginning of a text that Git LFS stores in place of a large file.
+const LFS_POINTER: &[u8] = b"version https://git-lfs.github.com/spec/";
+
+/// Opens an input file.
+///
+/// # Errors
+/// Fails if the file cannot be opened, or if it is a pointer of Git LFS in place of a file.
+pub fn open_file(path: &Path) -> io::Result<File> {
+    let mut file = File::open(path)?;
+    let known = file.metadata()?;
+    // Git LFS calls longer texts no pointers.
+    if known.is_file() && known.len() < 1024 {
+        let mut start = Vec::new();
+        (&mut file).take(LFS_POINTER.len() as u64).read_to_end(&mut start)?;
+        if start == LFS_POINTER {
+            return Err(io::Error::other(
+                "it is a pointer of Git LFS, not the file itself; fetch the file with `git lfs pull`",
+            ));
+        }
+        file.rewind()?;
+    }
+    Ok(file)
+}
 
 /// Reads a file of at most `limit` bytes. The file may be a pipe or a device, whose length is not
 /// known in advance.
@@ -17,7 +41,7 @@ pub const SETTINGS_LIMIT: u64 = 1 << 20;
 /// Fails if the file cannot be read or has more bytes ([`io::ErrorKind::FileTooLarge`]).
 pub fn read_bytes(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    LimitedReader::new(File::open(path)?, limit).read_to_end(&mut bytes)?;
+    LimitedReader::new(open_file(path)?, limit).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 
@@ -76,6 +100,16 @@ mod tests {
     fn a_device_without_an_end_is_refused() {
         let error = read_settings(Path::new("/dev/zero")).unwrap_err();
         assert_eq!(error.to_string(), "it is larger than 1 MiB, which is the limit");
+    }
+
+    #[test]
+    fn a_pointer_of_git_lfs_is_not_the_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("file");
+        std::fs::write(&path, [LFS_POINTER, b"v1\noid sha256:aa\nsize 12345\n"].concat()).unwrap();
+        assert!(open_file(&path).unwrap_err().to_string().contains("`git lfs pull`"));
+        std::fs::write(&path, &LFS_POINTER[..20]).unwrap();
+        assert_eq!(read_bytes(&path, 100).unwrap(), &LFS_POINTER[..20]);
     }
 
     #[test]

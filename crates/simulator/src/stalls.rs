@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The stalls of a sink, read from a table.
 
-use std::fs::File;
 use std::ops::Range;
 use std::path::Path;
 
 use csv::{ReaderBuilder, StringRecord};
-use foveate_reading::table_reader;
+use foveate_reading::{open_file, table_reader};
 
 use crate::SimulatorError;
 
@@ -27,7 +26,7 @@ pub fn read_stalls(path: &Path) -> Result<Vec<Range<u64>>, SimulatorError> {
 /// Reads a table of at most `most` stalls.
 fn read_stalls_up_to(path: &Path, most: usize) -> Result<Vec<Range<u64>>, SimulatorError> {
     let refuse = |problem: String| SimulatorError::Stalls { path: path.to_owned(), problem };
-    let file = File::open(path).map_err(|error| refuse(error.to_string()))?;
+    let file = open_file(path).map_err(|error| refuse(error.to_string()))?;
     let mut table = table_reader(&ReaderBuilder::new(), file);
     let names = table.headers().map_err(|error| refuse(error.to_string()))?;
     if names.iter().ne(["clock", "clocks"]) {

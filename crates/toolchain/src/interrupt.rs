@@ -96,7 +96,7 @@ pub(crate) fn interrupted_error() -> io::Error {
 /// Fails if the file cannot be opened, and on an interrupt.
 pub fn open_interruptibly(path: &Path, interrupt: &Interrupt) -> io::Result<File> {
     if std::fs::metadata(path)?.is_file() {
-        return File::open(path);
+        return foveate_reading::open_file(path);
     }
     // A thread waits in `open` while this one checks the interrupt; the thread ends with the
     // process.

@@ -82,7 +82,7 @@ impl Input {
         let reader: Box<dyn Read + Send> = if self.path == Path::new("-") {
             Box::new(io::stdin())
         } else {
-            Box::new(File::open(&self.path).map_err(failed)?)
+            Box::new(foveate_reading::open_file(&self.path).map_err(failed)?)
         };
         Ok(OpenInput { reader, port: None })
     }

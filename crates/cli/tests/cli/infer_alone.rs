@@ -44,6 +44,7 @@ fn write(
         ir_version: Some(8),
         graph: Some(graph),
         opset_import: vec![OperatorSetIdProto { domain: None, version: Some(20) }],
+        ..ModelProto::default()
     };
     fs::write(path, model.encode_to_vec()).unwrap();
 }

@@ -2,11 +2,10 @@
 //! A library of cells: their areas, the cells that a mapping needs, and the memories among them.
 
 use std::collections::BTreeMap;
-use std::fs::File;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
-use foveate_reading::{LimitedReader, unpacked};
+use foveate_reading::{LimitedReader, open_file, unpacked};
 use foveate_toolchain::{Source, sha256_hex};
 
 use super::error::SiliconError;
@@ -235,7 +234,7 @@ fn time_unit_ns(library: &LibertyGroup) -> f64 {
 
 fn read_text(path: &Path) -> io::Result<String> {
     let mut bytes = Vec::new();
-    LimitedReader::new(unpacked(File::open(path)?)?, FILE_LIMIT).read_to_end(&mut bytes)?;
+    LimitedReader::new(unpacked(open_file(path)?)?, FILE_LIMIT).read_to_end(&mut bytes)?;
     // Comments may have letters in other encodings.
     let text = String::from_utf8_lossy(&bytes);
     Ok(text.trim_start_matches('\u{feff}').to_owned())
@@ -305,7 +304,7 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         let (plain, packed) = (dir.path().join("a.lib"), dir.path().join("b.lib.gz"));
         std::fs::write(&plain, CELLS).unwrap();
-        let file = File::create(&packed).unwrap();
+        let file = std::fs::File::create(&packed).unwrap();
         let mut gzip = flate2::write::GzEncoder::new(file, flate2::Compression::default());
         gzip.write_all(CELLS.as_bytes()).unwrap();
         gzip.finish().unwrap();

@@ -2,7 +2,6 @@
 //! Reads NumPy files (NPY 1.0 to 3.0) as `numpy.save` writes them. A file may come from an
 //! untrusted source.
 
-use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
@@ -44,7 +43,8 @@ pub fn read_array(path: &Path) -> Result<NpyArray, NpyError> {
     if !metadata.is_file() {
         return Err(array_error("it is not a file".to_owned()));
     }
-    let mut file = File::open(path).map_err(|error| array_error(error.to_string()))?;
+    let mut file =
+        foveate_reading::open_file(path).map_err(|error| array_error(error.to_string()))?;
     read_from(&mut file).map_err(array_error)
 }
 

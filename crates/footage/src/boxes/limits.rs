@@ -18,7 +18,7 @@ const MAX_FILE: u64 = 1 << 30;
 /// fails at the limit.
 pub(crate) fn open(path: &Path) -> Result<BufReader<LimitedReader<File>>, BoxError> {
     let unreadable = |source| BoxError::Io { path: path.to_owned(), source };
-    let file = File::open(path).map_err(unreadable)?;
+    let file = foveate_reading::open_file(path).map_err(unreadable)?;
     if file.metadata().map_err(unreadable)?.len() > MAX_FILE {
         let problem = "it has more than 1 GiB, which is the limit; split it by clip".to_owned();
         return Err(BoxError::File { path: path.to_owned(), problem });

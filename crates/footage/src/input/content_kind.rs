@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The kind of a file according to its first bytes, independent of its name.
 
-use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
@@ -36,7 +35,7 @@ pub(crate) enum ContentKind {
 pub(crate) fn content(path: &Path) -> io::Result<ContentKind> {
     let mut start = Vec::new();
     if path.metadata()?.is_file() {
-        File::open(path)?.take(START).read_to_end(&mut start)?;
+        foveate_reading::open_file(path)?.take(START).read_to_end(&mut start)?;
     }
     Ok(content_kind_of(&start))
 }

@@ -4,6 +4,8 @@
 use std::io::Read;
 use std::path::Path;
 
+use foveate_reading::foreign_format;
+
 use super::content_kind::{ContentKind, content_kind_of};
 use crate::FootageError;
 use crate::extension::{is_video_name, unread_image_type_by_name};
@@ -58,6 +60,11 @@ pub(crate) fn file_kind(path: &Path) -> Result<FileKind, FootageError> {
     }
     if binary && cifar::labels_in_batch(length).is_some() {
         return Ok(FileKind::CifarBatch);
+    }
+    if let Some(what) = foreign_format(&start) {
+        return Err(frameless(&format!(
+            "it is {what}; write its frames as images or as a video first, for example with a script in Python"
+        )));
     }
     let other = match content_kind_of(&start) {
         ContentKind::OtherImage(name) => Some(name),

@@ -34,7 +34,7 @@ const DOCUMENT_ENTRIES: [&str; 3] = ["[Content_Types].xml", "META-INF/MANIFEST.M
 
 /// Opens an archive of images. Documents and programs that are ZIP archives are refused.
 pub(super) fn open_archive(path: &Path) -> Result<OpenArchive, FootageError> {
-    let file = File::open(path).map_err(|error| FootageError::Unreadable {
+    let file = foveate_reading::open_file(path).map_err(|error| FootageError::Unreadable {
         path: path.to_owned(),
         problem: error.to_string(),
     })?;

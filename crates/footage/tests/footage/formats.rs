@@ -60,6 +60,26 @@ fn a_file_that_leads_to_others_is_refused_by_the_name_of_its_format() {
     assert_eq!(all(&real).0.len(), 5);
 }
 
+#[test]
+fn pointers_and_recordings_of_other_tools_are_called_what_they_are() {
+    let dir = tempfile::tempdir().unwrap();
+    let pointer = b"version https://git-lfs.github.com/spec/v1\noid sha256:aa\nsize 12345\n";
+    let files: [(&str, &[u8], &str); 6] = [
+        ("a.mp4", pointer, "git lfs pull"),
+        ("a.png", pointer, "git lfs pull"),
+        ("a.zip", pointer, "git lfs pull"),
+        ("a.bag", b"#ROSBAG V2.0\n\x45\0\0\0", "a ROS 1 bag"),
+        ("a.h5", b"\x89HDF\r\n\x1a\n\0\0\0\0", "an HDF5 file"),
+        ("a.es", b"Event Stream\x02\0\0", "an event stream (`.es`)"),
+    ];
+    for (name, bytes, part) in files {
+        let path = dir.path().join(name);
+        fs::write(&path, bytes).unwrap();
+        let said = refusal(&path);
+        assert!(said.contains(part) && said.contains(name), "{said}");
+    }
+}
+
 /// Containers that ffmpeg writes, each with a codec.
 #[test]
 fn every_ordinary_container_is_read() {

@@ -51,9 +51,10 @@ pub(super) struct GraphResult {
     pub(super) problems: Vec<NetworkError>,
 }
 
-/// Reads a graph.
+/// Reads a graph. `functions` are the names of the functions of the model, with their domains.
 pub(super) fn read_graph(
     graph: &GraphProto,
+    functions: HashSet<String>,
     folder: &ModelFolder,
     source: &InputSource<'_>,
     (opset, on_problem): (i64, ProblemPolicy),
@@ -75,6 +76,7 @@ pub(super) fn read_graph(
         values: known,
         unknown_names: HashSet::new(),
         folder,
+        functions,
         opset,
         on_problem,
         use_counts: count_uses(graph),
@@ -123,6 +125,14 @@ fn tensor_outputs(outputs: &[(String, GraphValue)]) -> Vec<(String, usize)> {
     outputs.iter().filter_map(value).collect()
 }
 
+/// What to do about an operator that selects detections.
+const SELECTION_ADVICE: &str = ", because it selects detections and computes none; export the network without it \
+    (Ultralytics: `nms=False` and `end2end=False`; other YOLO: without `--end2end`), or cut the model before it with \
+    `onnx.utils.extract_model`";
+/// What to do about a function of the model.
+const FUNCTION_ADVICE: &str = ", because it is a function of the model itself; replace functions by their nodes: \
+    `onnx.save(onnx.inliner.inline_local_functions(onnx.load(\"MODEL\")), \"INLINED\")`";
+
 /// A graph of which some nodes have been read.
 pub(super) struct GraphReader<'a> {
     pub(super) network: Network,
@@ -130,6 +140,8 @@ pub(super) struct GraphReader<'a> {
     /// The names of tensors that are not known, because a node before them cannot be read.
     unknown_names: HashSet<String>,
     folder: &'a ModelFolder,
+    /// The names of the functions of the model, with their domains.
+    functions: HashSet<String>,
     opset: i64,
     on_problem: ProblemPolicy,
     /// The number of uses of each name.
@@ -139,6 +151,20 @@ pub(super) struct GraphReader<'a> {
 }
 
 impl GraphReader<'_> {
+    /// Returns the end of the message for an operator that is not supported.
+    fn advice_on_operator(&self, operator: &str) -> &'static str {
+        if self.functions.contains(operator) {
+            return FUNCTION_ADVICE;
+        }
+        if operator == "TopK" || operator.contains("NMS") || operator == "NonMaxSuppression" {
+            return SELECTION_ADVICE;
+        }
+        match self.on_problem {
+            ProblemPolicy::Stop => "; `foveate infer --check MODEL` lists all such nodes",
+            ProblemPolicy::Note => "",
+        }
+    }
+
     /// Reads all nodes, and returns the recorded problems. `channels_last` names an input whose
     /// transposition is skipped.
     fn read_nodes(
@@ -169,10 +195,7 @@ impl GraphReader<'_> {
         let name = node_name(node, index);
         let operator = full_operator_name(node);
         if !operators::is_supported(&operator) {
-            let advice = match self.on_problem {
-                ProblemPolicy::Stop => "; `foveate infer --check MODEL` lists all such nodes",
-                ProblemPolicy::Note => "",
-            };
+            let advice = self.advice_on_operator(&operator);
             return Err(NetworkError::UnsupportedOperator { node: name, operator, advice });
         }
         let problem = |problem| NetworkError::InvalidNode {

@@ -27,6 +27,7 @@ const BYTES_PER_FLOAT_BYTE: u64 = 3;
 #[derive(Clone, Copy)]
 enum MessageKind {
     Model,
+    Function,
     Graph,
     Node,
     Attribute,
@@ -48,6 +49,7 @@ enum FieldContent {
 fn field_content(kind: MessageKind, field: usize) -> FieldContent {
     match (kind, field) {
         (MessageKind::Model, 7) => FieldContent::Message(MessageKind::Graph),
+        (MessageKind::Model, 25) => FieldContent::Message(MessageKind::Function),
         (MessageKind::Graph, 1) => FieldContent::Message(MessageKind::Node),
         (MessageKind::Graph | MessageKind::Attribute, 5) => {
             FieldContent::Message(MessageKind::Tensor)

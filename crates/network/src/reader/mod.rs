@@ -36,7 +36,6 @@ use graph::{GraphResult, InputSource, ProblemPolicy};
 use model_folder::ModelFolder;
 use node::GraphValue;
 use prost::Message as _;
-use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
@@ -119,7 +118,7 @@ fn read_file(path: &Path) -> Result<Vec<u8>, NetworkError> {
         return Err(not_onnx(path, "it is not a file"));
     }
     let mut bytes = Vec::new();
-    let file = File::open(path).map_err(NetworkError::io(path))?;
+    let file = foveate_reading::open_file(path).map_err(NetworkError::io(path))?;
     file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(NetworkError::io(path))?;
     if bytes.len() as u64 > MAX_FILE_BYTES {
         return Err(not_onnx(path, "it is larger than 2 GiB"));
@@ -146,7 +145,8 @@ fn read_model_graph(
             "it uses version {opset} of the ONNX operators; versions {MIN_OPSET} to {MAX_OPSET} are supported"
         )));
     }
-    graph::read_graph(graph, &ModelFolder::of_model(path), source, (opset, on_problem))
+    let functions = model.functions.iter().map(names::full_function_name).collect();
+    graph::read_graph(graph, functions, &ModelFolder::of_model(path), source, (opset, on_problem))
 }
 
 /// Decodes the model in a file.

@@ -111,7 +111,7 @@ pub(super) fn read_external_data(
             .map_err(fails)?,
     );
     real.strip_prefix(root).map_err(outside)?;
-    let mut file = std::fs::File::open(real).map_err(fails)?;
+    let mut file = foveate_reading::open_file(&real).map_err(fails)?;
     let all = file.metadata().map_err(fails)?.len();
     let offset = number("offset")?.unwrap_or(0);
     let length = number("length")?.unwrap_or(all.saturating_sub(offset));

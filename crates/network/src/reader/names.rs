@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Names of nodes, operators, inputs and outputs in a model.
 
-use crate::onnx::{NodeProto, ValueInfoProto};
+use crate::onnx::{FunctionProto, NodeProto, ValueInfoProto};
 
 /// Returns true if a domain is that of the ONNX standard.
 pub(super) fn is_standard(domain: Option<&str>) -> bool {
@@ -10,8 +10,17 @@ pub(super) fn is_standard(domain: Option<&str>) -> bool {
 
 /// Returns the name of an operator, with its domain if that is not the standard one.
 pub(super) fn full_operator_name(node: &NodeProto) -> String {
-    let kind = node.op_type.as_deref().unwrap_or_default();
-    match node.domain.as_deref().filter(|domain| !is_standard(Some(domain))) {
+    full_name(node.domain.as_deref(), node.op_type.as_deref())
+}
+
+/// Returns the name by which nodes call a function of the model, as for an operator.
+pub(super) fn full_function_name(function: &FunctionProto) -> String {
+    full_name(function.domain.as_deref(), function.name.as_deref())
+}
+
+fn full_name(domain: Option<&str>, kind: Option<&str>) -> String {
+    let kind = kind.unwrap_or_default();
+    match domain.filter(|domain| !is_standard(Some(domain))) {
         Some(domain) => format!("{domain}.{kind}"),
         None => kind.to_owned(),
     }

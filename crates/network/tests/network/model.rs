@@ -106,7 +106,13 @@ impl ModelBuilder {
     pub(crate) fn bytes(self) -> Vec<u8> {
         let own = |version| OperatorSetIdProto { domain: None, version: Some(version) };
         let opset_import = self.opset.map(own).into_iter().collect();
-        ModelProto { ir_version: Some(8), graph: Some(self.graph), opset_import }.encode_to_vec()
+        ModelProto {
+            ir_version: Some(8),
+            graph: Some(self.graph),
+            opset_import,
+            ..ModelProto::default()
+        }
+        .encode_to_vec()
     }
 
     pub(crate) fn read(self, width: usize, height: usize) -> Result<Network, NetworkError> {

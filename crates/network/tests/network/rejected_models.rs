@@ -4,9 +4,10 @@
 
 use crate::exactness::signed;
 use crate::model::{AttributeValue, ModelBuilder};
-use foveate_network::onnx::data_type;
+use foveate_network::onnx::{FunctionProto, ModelProto, data_type};
 use foveate_network::{FrameSize, Network};
 use proptest::prelude::*;
+use prost::Message as _;
 use std::path::Path;
 
 fn refusal(model: ModelBuilder) -> String {
@@ -29,6 +30,23 @@ fn an_unsupported_operator_is_reported_with_its_node() {
     let mut model = one_node("Relu", &[]);
     model.graph.node[0].domain = Some("com.example".to_owned());
     assert!(refusal(model).contains("`com.example.Relu`"));
+}
+
+#[test]
+fn operators_that_an_export_can_do_without_are_named_with_the_way() {
+    for kind in ["TopK", "NonMaxSuppression", "EfficientNMS_TRT"] {
+        let said = refusal(one_node(kind, &[]));
+        assert!(said.contains("`nms=False`") && said.contains("extract_model"), "{said}");
+    }
+    let mut model = one_node("Block", &[]);
+    model.graph.node[0].domain = Some("own".to_owned());
+    let block = FunctionProto { name: Some("Block".to_owned()), domain: Some("own".to_owned()) };
+    let mut decoded = ModelProto::decode(&model.bytes()[..]).unwrap();
+    decoded.functions = vec![block];
+    let size = FrameSize { width: 8, height: 8 };
+    let read = Network::parse(&decoded.encode_to_vec(), Path::new("test.onnx"), size);
+    let said = read.unwrap_err().to_string();
+    assert!(said.contains("`own.Block`") && said.contains("inline_local_functions"), "{said}");
 }
 
 #[test]

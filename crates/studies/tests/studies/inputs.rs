@@ -101,7 +101,15 @@ fn a_sensor_that_sees_the_same_correlates_fully() {
     }
     let at_first = StudyRequest { sensor_start_us: 900_000, ..request.clone() };
     assert!(analyze(&at_first, &out, true, &SilentHooks).is_err(), "nothing comes after frame 0");
-    for (csv, part) in [("t_us,x,y\n", "no event"), ("t_us,x,y\n1001,24,0\n", "24x8 pixels")] {
+    for (csv, part) in [
+        ("t_us,x,y\n", "no event"),
+        ("t_us,x,y\n1001,24,0\n", "24x8 pixels"),
+        ("# Format: [timestamp, x, y, polarity]\n0.001 3 2 1\n", "v2e"),
+        ("0.001 3 2 1\n", "v2e"),
+        ("time;a;b\n1;2;3\n", "`time;a;b`"),
+        ("Event Stream\u{2}", "an event stream (`.es`)"),
+        ("version https://git-lfs.github.com/spec/v1\n", "git lfs pull"),
+    ] {
         fs::write(&events, csv).unwrap();
         let refused = analyze(&request, &out, true, &SilentHooks).unwrap_err().to_string();
         assert!(refused.contains(part) && refused.contains("events.csv"), "{refused}");
