@@ -29,7 +29,7 @@ def design_card(design: Design) -> str:
 
 
 def outcome_card(outcome: Outcome) -> str:
-    """Make the pictures of an outcome, as HTML: the rendered frame, and the decisions in the colours of the overlays."""
+    """Make the pictures of an outcome, as HTML: the rendered frame, and the decisions in the colours of `overlay(outlines=True)`."""
     design = outcome.design
     width = min(_WIDTH, max(design.width, _WIDTH // 2))
     pictures = []

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The outcome of one frame. Arrays own their memory, and are made when they are first read.
 
-use foveate_simulator::{OverlayFrame, PacketContent, SentValues, active_groups, draw_overlay};
+use foveate_simulator::{
+    OverlayFrame, OverlayStyle, PacketContent, SentValues, active_groups, draw_overlay,
+};
 use numpy::ndarray::{Array2, Array3};
 use numpy::{IntoPyArray, PyArray2, PyArray3, PyUntypedArray};
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -244,7 +246,7 @@ impl Outcome {
         Ok(PyBytes::new(py, &packets))
     }
 
-    /// Draw the decisions over the frame, as `foveate simulate --overlay` does, without the legend and the chart below it.
+    /// Draw the frame with what is sent of it, as `foveate simulate --overlay` does, without the legend and the chart below.
     ///
     /// Parameters
     /// ----------
@@ -252,12 +254,15 @@ impl Outcome {
     ///     Grey pixels to draw over, as `Camera.step` takes them. The default is `frame` of the outcome. An outcome of
     ///     `Camera.step` has none, so give the frame that the camera took. Another frame of its size, such as `rendered`, is
     ///     allowed.
+    /// outlines : bool
+    ///     Whether each decision has a colour, with outlines: active regions green, relevant but unchanged ones orange,
+    ///     changed but irrelevant ones blue. Otherwise what is sent is bright, what is not sent is dark, and means are
+    ///     tinted.
     ///
     /// Returns
     /// -------
     /// array of uint8, shape (scale * height, scale * width, 3)
-    ///     Red, green and blue: active regions green, relevant but unchanged ones orange, changed but irrelevant ones blue.
-    ///     Small frames are enlarged by a whole number, the scale. Marks of classes are drawn unless `Camera.zones` was
+    ///     Red, green and blue. Small frames are enlarged by a whole number, the scale. Marks of classes are drawn unless `Camera.zones` was
     ///     assigned.
     ///
     /// Raises
@@ -266,11 +271,12 @@ impl Outcome {
     ///     If the outcome has no frame and none is given, or if the frame is no array of pixels of the design.
     /// ValueError
     ///     If the frame has another size.
-    #[pyo3(signature = (frame=None))]
+    #[pyo3(signature = (frame=None, *, outlines=false))]
     fn overlay<'py>(
         &self,
         py: Python<'py>,
         frame: Option<&Bound<'py, PyAny>>,
+        outlines: bool,
     ) -> PyResult<Bound<'py, PyArray3<u8>>> {
         let own = self.frame.as_ref().map(|own| own.0.bind(py).as_any());
         let Some(frame) = frame.or(own) else {
@@ -296,6 +302,7 @@ impl Outcome {
                 outcome: &self.record.result,
                 frame: &frame,
                 has_own_map: self.record.has_own_map(),
+                style: if outlines { OverlayStyle::Outlines } else { OverlayStyle::Sent },
             })
         });
         let shape = (height as usize, width as usize, 3);

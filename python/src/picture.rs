@@ -37,7 +37,7 @@ pub(crate) fn grey_png<'py>(
     png(py, &bytes, grey.size(), colour)
 }
 
-/// Returns the decisions of an outcome as a PNG with one pixel per region, in the colours of the overlays.
+/// Returns the decisions of an outcome as a PNG with one pixel per region, in the colours of overlays with outlines.
 #[pyfunction]
 pub(crate) fn decisions_png<'py>(
     py: Python<'py>,

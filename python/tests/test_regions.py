@@ -41,6 +41,16 @@ def test_an_overlay_is_the_upper_part_of_that_of_simulate(name, command, tmp_pat
         assert np.array_equal(camera.step(outcome.frame).overlay(outcome.frame), overlay)
 
 
+def test_an_overlay_shows_what_is_sent_or_outlines_the_decisions():
+    *_, outcome = fv.simulate("scene:street", "paper", max_frames=2)
+    scale = len(outcome.overlay()) // len(outcome.frame)
+    sent = np.repeat(np.repeat(outcome.active, 8 * scale, 0), 8 * scale, 1)
+    frame = np.repeat(np.repeat(outcome.frame, scale, 0), scale, 1)
+    overlay = outcome.overlay()
+    assert np.array_equal(overlay[sent], np.stack([frame[sent]] * 3, axis=-1)) and (overlay[~sent].T <= frame[~sent] // 3 + 1).all()
+    assert not np.array_equal(outcome.overlay(outlines=True), overlay)
+
+
 def test_an_overlay_needs_a_frame_of_its_size(frames):
     outcome = fv.Camera().step(frames[0])
     with pytest.raises(TypeError, match=r"Camera.step does not keep the frame that it takes; give that frame, outcome.overlay\(frame\)"):

@@ -3,6 +3,7 @@
 //! the meaning of the data.
 
 pub mod chart;
+pub mod lettering;
 pub mod page;
 pub mod palette;
 mod xml_text;

@@ -30,10 +30,10 @@ pub use foveate_model::explanation::{DecidedRegion, DecisionExplanation, RegionE
 pub use foveate_packets::{PacketLayout, RegisterCommand, RegisterPacket, StreamLoss};
 pub use output::{
     BandwidthComparison, CameraTraffic, ClockFigures, ClockOptions, DataSetPaths,
-    EventTableOptions, FrameStart, GridSize, OverlayFrame, PIXEL_EVENT_BYTES, PacketContent,
-    PictureFormat, PixelCamera, PixelEvent, PixelEventOptions, RunOptions, RunSummary, SentCounts,
-    SentValues, ValueRange, draw_overlay, packet_bytes, packet_layout, wrapped_number,
-    write_kept_packets, write_packets,
+    EventTableOptions, FrameStart, GridSize, OverlayFrame, OverlayStyle, PIXEL_EVENT_BYTES,
+    PacketContent, PictureFormat, PixelCamera, PixelEvent, PixelEventOptions, RunOptions,
+    RunSummary, SentCounts, SentValues, ValueRange, draw_overlay, packet_bytes, packet_layout,
+    wrapped_number, write_kept_packets, write_packets,
 };
 pub use recording::{DecodedRecording, PacketRecording};
 pub use simulation::{SIMULATION_FOLDER, Simulation};

@@ -15,13 +15,13 @@ mod csv;
 mod data_set;
 mod deflate_packer;
 mod event_files;
-mod font;
 mod frame_packets;
 mod frame_table;
 mod headed_file;
 mod heatmap;
 mod latency_chart;
 mod latency_files;
+mod legend;
 mod npz;
 mod options;
 mod overlay;
@@ -52,7 +52,7 @@ pub use frame_packets::{
 pub use options::{
     ClockOptions, EventTableOptions, PacketContent, PictureFormat, PixelEventOptions, RunOptions,
 };
-pub use overlay::{OverlayFrame, draw_overlay};
+pub use overlay::{OverlayFrame, OverlayStyle, draw_overlay};
 pub use pixel_camera::{PixelCamera, PixelEvent};
 pub(crate) use recorder::{DISK_FULL, FrameContent, INTERRUPTED, RunRecorder};
 pub use summary::{GridSize, RunSummary, SentCounts, ValueRange};

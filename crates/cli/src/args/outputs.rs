@@ -3,7 +3,7 @@
 
 use clap::{Args, ValueEnum};
 use foveate_design::Decimal;
-use foveate_simulator::{EventTableOptions, PixelEventOptions, RunOptions};
+use foveate_simulator::{EventTableOptions, OverlayStyle, PixelEventOptions, RunOptions};
 
 use super::pixel_event_format::{PixelEventFormat, PixelEventFormatParser};
 
@@ -19,10 +19,14 @@ pub(crate) struct ReceiverOutputArgs {
     /// The same as --rendered none
     #[arg(long, conflicts_with = "rendered")]
     pub(crate) no_rendered: bool,
-    /// Write the original frames with the decisions in colour; `decode` has no original frames and
-    /// uses the rendered ones
+    /// Write the original frames with what is sent bright, what is not sent dark, and means tinted;
+    /// `decode` has no original frames and uses the rendered ones
     #[arg(long, value_enum, value_name = "FORMAT", num_args = 0..=1, require_equals = true, default_missing_value = "png")]
     pub(crate) overlay: Option<PictureFormat>,
+    /// Write the overlay with a colour and outlines for each decision, to tune thresholds: sent,
+    /// relevant but unchanged, changed but irrelevant
+    #[arg(long, value_enum, value_name = "FORMAT", num_args = 0..=1, require_equals = true, default_missing_value = "png", conflicts_with = "overlay")]
+    pub(crate) overlay_outlines: Option<PictureFormat>,
     /// Write a map of every score
     #[arg(long, value_enum, value_name = "FORMAT", num_args = 0..=1, require_equals = true, default_missing_value = "png")]
     pub(crate) heatmap: Option<PictureFormat>,
@@ -136,7 +140,11 @@ impl ReceiverOutputArgs {
         };
         RunOptions {
             rendered,
-            overlay: self.overlay.map(medium),
+            overlay: self.overlay.or(self.overlay_outlines).map(medium),
+            overlay_style: match self.overlay_outlines {
+                Some(_) => OverlayStyle::Outlines,
+                None => OverlayStyle::Sent,
+            },
             heatmap: self.heatmap.map(medium),
             events: EventTableOptions {
                 csv: self.events.contains(&EventFormat::Csv),

@@ -8,12 +8,14 @@
 use std::convert::Infallible;
 use std::ops::Range;
 
-use ab_glyph::{Font, FontRef, Glyph, PxScale, ScaleFont, point};
+use ab_glyph::{Font, FontRef, Glyph};
 use plotters::style::text_anchor::{HPos, VPos};
 use plotters_backend::rasterizer::draw_rect;
 use plotters_backend::{
     BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,
 };
+
+use crate::lettering::place_letters;
 
 /// The ratio of the text size in `plotters` to the em.
 const SIZE_OF_EM: f32 = 1.24;
@@ -138,26 +140,16 @@ impl ChartCanvas<'_> {
     fn place_letters<S: BackendTextStyle>(&self, text: &str, style: &S) -> Vec<Glyph> {
         #[allow(clippy::cast_possible_truncation, reason = "sizes of letters")]
         let em = style.size() as f32 / SIZE_OF_EM;
-        let height = self.font.height_unscaled();
-        let scale = PxScale::from(em * height / self.font.units_per_em().unwrap_or(height));
-        let font = self.font.as_scaled(scale);
         let baseline = match style.anchor().v_pos {
             VPos::Top => 0.76 * em,
             VPos::Center => 0.27 * em,
             VPos::Bottom => -0.27 * em,
         };
-        let mut caret = 0.0;
-        let mut glyphs: Vec<Glyph> = Vec::new();
-        for letter in text.chars() {
-            let id = font.glyph_id(letter);
-            caret += glyphs.last().map_or(0.0, |last| font.kern(last.id, id));
-            glyphs.push(id.with_scale_and_position(scale, point(caret, baseline)));
-            caret += font.h_advance(id);
-        }
+        let (mut glyphs, width) = place_letters(&self.font, text, em, baseline);
         let left = match style.anchor().h_pos {
             HPos::Left => 0.0,
-            HPos::Right => caret,
-            HPos::Center => caret / 2.0,
+            HPos::Right => width,
+            HPos::Center => width / 2.0,
         };
         glyphs.iter_mut().for_each(|glyph| glyph.position.x -= left);
         glyphs
@@ -185,6 +177,8 @@ fn mixed_value(below: u8, above: u8, alpha: f64) -> u8 {
 
 #[cfg(test)]
 mod tests {
+    use crate::lettering::picture_font;
+
     use plotters::prelude::*;
 
     use super::*;
@@ -198,7 +192,7 @@ mod tests {
         for ((x0, x1), (y0, y1)) in pairs().flat_map(|x| pairs().map(move |y| (x, y))) {
             let pixels_of = |draw: fn(&mut ChartCanvas<'_>, BackendCoord, BackendCoord)| {
                 let mut pixels = vec![9; 3 * 7 * 8];
-                let font = FontRef::try_from_slice(dejavu::sans::regular()).unwrap();
+                let font = picture_font().unwrap();
                 draw(
                     &mut ChartCanvas { pixels: &mut pixels, size: (7, 8), font },
                     (x0, y0),
@@ -218,7 +212,7 @@ mod tests {
     fn inked_rows(text: &str, size: u32) -> Vec<usize> {
         let (width, height) = (80, 60);
         let mut pixels = vec![255; 3 * width * height];
-        let font = FontRef::try_from_slice(dejavu::sans::regular()).unwrap();
+        let font = picture_font().unwrap();
         let page = ChartCanvas { pixels: &mut pixels, size: (80, 60), font };
         let area = page.into_drawing_area();
         let style = ("sans-serif", size).into_font().color(&BLACK);

@@ -3,7 +3,6 @@
 
 use std::sync::OnceLock;
 
-use ab_glyph::FontRef;
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 use plotters::prelude::*;
@@ -12,6 +11,7 @@ use plotters::style::register_font;
 use super::canvas::ChartCanvas;
 use super::chart_data::SIZE;
 use super::{Chart, ChartError, drawing};
+use crate::lettering::picture_font;
 use crate::xml_text;
 
 impl Chart {
@@ -35,8 +35,7 @@ impl Chart {
     pub fn to_png(&self) -> Result<Vec<u8>, ChartError> {
         self.load_font()?;
         let mut pixels = vec![0; 3 * (SIZE.0 * SIZE.1) as usize];
-        let font = FontRef::try_from_slice(dejavu::sans::regular())
-            .map_err(|_| self.chart_error(&"the font is damaged"))?;
+        let font = picture_font().map_err(|_| self.chart_error(&"the font is damaged"))?;
         let page = ChartCanvas { pixels: &mut pixels, size: SIZE, font };
         drawing::draw(self, &page.into_drawing_area()).map_err(|error| self.chart_error(&error))?;
         let mut file = Vec::new();

@@ -2,14 +2,15 @@
 //! The share of active regions from the first frame to the current one, as bars below a picture.
 //!
 //! A bar is one frame until the chart is full. Then each two bars become one, with the mean of
-//! both, and so on. So the chart shows the whole clip in constant memory, whatever its length.
+//! both, and so on. So the chart shows the whole clip in constant memory, whatever its length. Its bars
+//! fill the width, and its scale is the smallest one for all bars but the first.
 
-use foveate_pictures::palette::Colour;
+use foveate_pictures::palette::{ACTIVE_BRIGHT, Colour};
 
-use super::canvas::{PictureCanvas, PictureLayout};
+use super::canvas::{BACKGROUND, LINE_DOTS, PictureCanvas, PictureLayout, TEXT_DOTS, text_width};
 
-/// The colour of the line at one half.
-const HALF_LINE_COLOUR: Colour = [70, 70, 70];
+/// The colour of the lines at the upper end of the scale and at its half.
+const LINE_COLOUR: Colour = [70, 70, 70];
 
 /// The bars so far.
 pub(super) struct ActivityChart {
@@ -27,12 +28,17 @@ impl Default for ActivityChart {
 }
 
 impl ActivityChart {
-    /// The height in dots.
-    pub(super) const HEIGHT_DOTS: u32 = 32;
+    /// The height of the bars in dots.
+    const BAR_DOTS: u32 = 28;
+    /// The height with the line of text above the bars, in dots.
+    pub(super) const HEIGHT_DOTS: u32 = LINE_DOTS + Self::BAR_DOTS;
+    /// The largest share of regions at the upper end of the scale, in permille. The smallest one that no
+    /// bar passes is taken.
+    const SCALES: [u64; 7] = [10, 20, 50, 100, 200, 500, 1000];
 
-    /// Returns the width of a bar in pixels.
-    pub(super) fn bar_width(layout: PictureLayout) -> u32 {
-        2 * layout.dot
+    /// Returns the largest number of bars, each of which has two dots or more.
+    pub(super) fn most_bars(layout: PictureLayout) -> usize {
+        (layout.width / (2 * layout.dot)) as usize
     }
 
     /// Adds a frame to a chart of at most `most` bars.
@@ -58,32 +64,45 @@ impl ActivityChart {
         self.frames_in_last = 1;
     }
 
-    /// Draws the bars at the bottom of a picture. A frame has `regions` regions.
-    pub(super) fn draw(
-        &self,
-        canvas: &mut PictureCanvas,
-        layout: PictureLayout,
-        regions: u64,
-        colour: Colour,
-    ) {
-        let (bottom, height) = (canvas.height, Self::HEIGHT_DOTS * layout.dot);
-        let bar = Self::bar_width(layout);
-        canvas.fill_rectangle(0, bottom - height / 2, canvas.width, 1, HALF_LINE_COLOUR);
+    /// Draws the bars at the bottom of a picture, over its whole width. A frame has `regions` regions.
+    pub(super) fn draw(&self, canvas: &mut PictureCanvas, layout: PictureLayout, regions: u64) {
+        let (bottom, height) = (canvas.height, Self::BAR_DOTS * layout.dot);
         let last = self.bars.len().saturating_sub(1);
-        for (index, (&active, left)) in
-            self.bars.iter().zip((0..).step_by(bar as usize)).enumerate()
-        {
-            let frames = if index == last { self.frames_in_last } else { self.frames_per_bar };
-            let bar_height = active * u64::from(height) / (regions * frames);
+        let whole =
+            |index| regions * if index == last { self.frames_in_last } else { self.frames_per_bar };
+        // At the first frame everything that is relevant changes, so its bar may end above the scale.
+        let counted = usize::from(self.bars.len() > 1);
+        let fits = |scale: &&u64| {
+            let mut bars = self.bars.iter().enumerate().skip(counted);
+            bars.all(|(index, active)| active * 1000 <= **scale * whole(index))
+        };
+        let scale = *Self::SCALES.iter().find(fits).unwrap_or(&1000);
+        canvas.fill_rectangle(0, bottom - height, canvas.width, 1, LINE_COLOUR);
+        canvas.fill_rectangle(0, bottom - height / 2, canvas.width, 1, LINE_COLOUR);
+        let count = u32::try_from(self.bars.len()).unwrap_or(u32::MAX).max(1);
+        let edge = |index: usize| {
+            u32::try_from(u64::from(canvas.width) * index as u64 / u64::from(count)).unwrap_or(0)
+        };
+        let edges: Vec<(u32, u32)> =
+            (0..self.bars.len()).map(|index| (edge(index), edge(index + 1))).collect();
+        for ((index, &active), (left, right)) in self.bars.iter().enumerate().zip(edges) {
+            let bar = active * 1000 * u64::from(height) / (scale * whole(index));
             // A bar with any active region is visible.
-            let bar_height =
-                u32::try_from(bar_height).expect("no more regions are active than there are");
-            let bar_height = bar_height.max(u32::from(active > 0));
-            canvas.fill_rectangle(left, bottom - bar_height, bar, bar_height, colour);
+            let bar = u32::try_from(bar).unwrap_or(height).min(height).max(u32::from(active > 0));
+            canvas.fill_rectangle(left, bottom - bar, right - left, bar, ACTIVE_BRIGHT);
         }
-        let right = canvas.width.saturating_sub(4 * 4 * layout.dot);
-        canvas.draw_text(right, bottom - height, layout.dot, "100%");
-        canvas.draw_text(right, bottom - height / 2 + layout.dot, layout.dot, " 50%");
+        let (dot, top) = (layout.dot, bottom - Self::HEIGHT_DOTS * layout.dot + 2 * layout.dot);
+        let share = format!("{} %", scale / 10);
+        canvas.draw_text(2 * dot, top, dot, "Share of regions that are sent, frame by frame");
+        let right = canvas.width.saturating_sub(text_width(&share, dot) + 2 * dot);
+        canvas.fill_rectangle(
+            right - 2 * dot.min(right / 2),
+            top - dot,
+            canvas.width,
+            (TEXT_DOTS + 2) * dot,
+            BACKGROUND,
+        );
+        canvas.draw_text(right, top, dot, &share);
     }
 }
 

@@ -3,9 +3,8 @@
 //! if it is small, above a footer for a legend.
 
 use foveate_camera::Camera;
+use foveate_pictures::lettering;
 use foveate_pictures::palette::Colour;
-
-use super::font;
 
 pub(super) const BACKGROUND: Colour = [16, 16, 16];
 pub(super) const TEXT: Colour = [230, 230, 230];
@@ -16,6 +15,12 @@ const MIN_ENLARGED_WIDTH: u32 = 448;
 const MAX_ENLARGED_HEIGHT: u32 = 1024;
 /// The side up to which regions with arrows are enlarged, by a whole factor.
 const MIN_ARROW_CELL: u32 = 16;
+/// The height of capitals, and of marks beside them, in dots.
+pub(super) const TEXT_DOTS: u32 = 5;
+/// The height of a line of text in dots.
+pub(super) const LINE_DOTS: u32 = 9;
+/// The size of letters in dots. Capitals have 0.73 of it.
+const EM_DOTS: u32 = 7;
 /// The number of dots across, from which the size of a dot follows.
 const DOTS_ACROSS: u32 = 220;
 /// The width that a legend needs, in dots.
@@ -26,7 +31,7 @@ const LEGEND_DOTS: u32 = 150;
 pub(super) struct PictureLayout {
     /// The number of pixels of the picture per pixel of the frame, along each side.
     pub(super) scale: u32,
-    /// The number of pixels per dot of a letter, along each side.
+    /// The number of pixels per dot, in which legends are measured, along each side.
     pub(super) dot: u32,
     pub(super) width: u32,
     /// The height of the enlarged frame, where the footer begins.
@@ -116,19 +121,20 @@ impl PictureCanvas {
         self.fill_rectangle(left + width - line, top, line, height, colour);
     }
 
-    /// Draws a line of text with `dot` pixels per dot. Returns the column at which it ends.
+    /// Draws a line of text whose capitals have a height of [`TEXT_DOTS`]. Returns the column at which
+    /// it ends.
     pub(super) fn draw_text(&mut self, left: u32, top: u32, dot: u32, text: &str) -> u32 {
-        let mut at = left;
-        for letter in text.chars() {
-            for (x, y) in (0..font::SIZE.1).flat_map(|y| (0..font::SIZE.0).map(move |x| (x, y))) {
-                if font::has_dot(letter, x, y) {
-                    self.fill_rectangle(at + x * dot, top + y * dot, dot, dot, TEXT);
-                }
-            }
-            at += (font::SIZE.0 + 1) * dot;
-        }
-        at
+        let place = (left, top + TEXT_DOTS * dot);
+        lettering::draw_text(text, EM_DOTS * dot, place, |x, y, share| {
+            self.blend(x, y, TEXT, share);
+        });
+        left + text_width(text, dot)
     }
+}
+
+/// Returns the width of a text in pixels.
+pub(super) fn text_width(text: &str, dot: u32) -> u32 {
+    lettering::text_width(text, EM_DOTS * dot)
 }
 
 /// Returns the mixture of two colours: the first for a share of 0, and the second for 1.

@@ -6,7 +6,7 @@ use foveate_camera::{Camera, RegionClass};
 use foveate_pictures::palette::{Colour, SERIES};
 
 use super::canvas::{BACKGROUND, PictureCanvas, PictureLayout};
-use super::font;
+use super::legend::{LegendKey, LegendMark};
 
 /// The share by which a stripe of the hatching darkens.
 const HATCHING: f64 = 0.6;
@@ -42,21 +42,18 @@ impl<'a> ClassMarks<'a> {
         }
     }
 
-    /// Draws the legend of the classes that the map has.
-    pub(super) fn draw_legend(&self, canvas: &mut PictureCanvas, layout: PictureLayout, top: u32) {
-        let (dot, side) = (layout.dot, font::SIZE.1 * layout.dot);
-        let mut left = 2 * dot;
-        for &class in RegionClass::ALL.iter().filter(|class| self.classes.contains(class)) {
-            match (class, class_colour(class)) {
-                (RegionClass::Off, _) => {
-                    canvas.fill_rectangle(left, top, side, side, [128; 3]);
-                    hatch(canvas, [left, top, side, side], dot);
-                }
-                (_, Some(colour)) => canvas.draw_border([left, top, side, side], dot, colour),
-                (_, None) => continue,
-            }
-            left = canvas.draw_text(left + side + dot, top, dot, class.name()) + 3 * dot;
-        }
+    /// Returns the keys of the classes that the map has.
+    pub(super) fn legend_keys(&self) -> Vec<LegendKey> {
+        let marked = RegionClass::ALL.iter().filter(|class| self.classes.contains(class));
+        let key = |&class| {
+            let mark = match class_colour(class) {
+                Some(colour) => LegendMark::Border(colour),
+                None if class == RegionClass::Off => LegendMark::Hatched,
+                None => return None,
+            };
+            Some(LegendKey::new(mark, &format!("zone: {}", class.name())))
+        };
+        marked.filter_map(key).collect()
     }
 
     /// Draws a line on the sides of a region beyond which another class begins.
@@ -100,7 +97,7 @@ fn class_colour(class: RegionClass) -> Option<Colour> {
 }
 
 /// Darkens every fourth diagonal stripe of an area.
-fn hatch(canvas: &mut PictureCanvas, [left, top, width, height]: [u32; 4], dot: u32) {
+pub(super) fn hatch(canvas: &mut PictureCanvas, [left, top, width, height]: [u32; 4], dot: u32) {
     for y in top..top + height {
         for x in (left..left + width).filter(|x| ((x + y) / dot).is_multiple_of(4)) {
             canvas.blend(x, y, BACKGROUND, HATCHING);

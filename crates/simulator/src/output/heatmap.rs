@@ -9,8 +9,7 @@ use colorous::VIRIDIS;
 use foveate_camera::{Camera, ScoreUnit};
 use foveate_pictures::palette::Colour;
 
-use super::canvas::{PictureCanvas, PictureLayout, TEXT};
-use super::font;
+use super::canvas::{LINE_DOTS, PictureCanvas, PictureLayout, TEXT, TEXT_DOTS, text_width};
 use super::picture_series::PicturePainter;
 use super::sink::SinkFrame;
 
@@ -80,11 +79,10 @@ impl HeatmapPainter {
     fn draw_bar(&self, canvas: &mut PictureCanvas, layout: PictureLayout) {
         let dot = layout.dot;
         let top = layout.frame_height + 2 * dot;
-        let height = font::SIZE.1 * dot;
+        let height = TEXT_DOTS * dot;
         let title = format!("{} 0", self.title);
         let left = canvas.draw_text(2 * dot, top, dot, &title) + dot;
-        let letters = u32::try_from(self.label.len()).expect("labels are short");
-        let right = layout.width.saturating_sub((letters * (font::SIZE.0 + 1) + 3) * dot);
+        let right = layout.width.saturating_sub(text_width(&self.label, dot) + 3 * dot);
         let width = right.saturating_sub(left).max(1);
         for x in 0..width {
             canvas.fill_rectangle(
@@ -106,7 +104,7 @@ impl PicturePainter for HeatmapPainter {
     fn paint(&mut self, sink_frame: &SinkFrame<'_>) -> PictureCanvas {
         let camera = sink_frame.camera;
         let layout = PictureLayout::of_camera(camera);
-        let footer = (font::SIZE.1 + 4) * layout.dot;
+        let footer = LINE_DOTS * layout.dot;
         let mut canvas = PictureCanvas::new(layout.width, layout.frame_height + footer);
         let cell = camera.region_size() * layout.scale;
         for region in 0..camera.regions() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The options that select the outputs of a run.
 
+use super::overlay::OverlayStyle;
 use foveate_camera::Decimal;
 use foveate_timed::SinkPattern;
 
@@ -78,8 +79,10 @@ pub struct RunOptions {
     /// The rendered frames, `rendered`. Frames of 8 bits per pixel are written unchanged. Fewer
     /// bits are converted to 8 and more bits to 16 by [`foveate_frame::convert_depth`].
     pub rendered: Option<PictureFormat>,
-    /// The original frames with the decisions in colour, `overlay`.
+    /// The original frames with what is sent of them, `overlay`.
     pub overlay: Option<PictureFormat>,
+    /// The style of the overlay.
+    pub overlay_style: OverlayStyle,
     /// The heat map of every score, `heatmap_<feature>` and `heatmap_temporal`.
     pub heatmap: Option<PictureFormat>,
     /// The tables of regions.
@@ -101,6 +104,7 @@ impl Default for RunOptions {
         Self {
             rendered: Some(PictureFormat::Png),
             overlay: None,
+            overlay_style: OverlayStyle::default(),
             heatmap: None,
             events: EventTableOptions::default(),
             pixel_events: PixelEventOptions::default(),

@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The overlay: the original frame, dimmed, with the decision about every region in colour. Below
-//! it are a legend and the share of active regions over time.
+//! The overlay: the original frame with what is sent of it. Below it are a legend and the share of sent
+//! regions over time.
 //!
-//! The colours are those of the palette. Active regions also have an outline. An arrow shows the
-//! displacement of a region, bright if `flow` votes for the region and faint otherwise. Without
-//! scores it is bright if the region is relevant. Classes of regions have marks and a legend.
+//! In the usual style the regions that are sent are bright, those of which only means are sent are
+//! tinted and have a thin border, and all others are dark: as on the live page. In the style with
+//! outlines the frame is dimmed, and the colour of a region says which of its two conditions holds. An
+//! arrow shows the displacement of a region, bright if `flow` votes for the region and faint otherwise.
+//! Without scores it is bright if the region is relevant. Classes of regions have marks.
 
 use foveate_camera::{Camera, Displacement, RegionAction};
 use foveate_engine::FrameOutcome;
 use foveate_frame::{ByteFrame, convert_depth};
-use foveate_pictures::palette::{ACTIVE, ACTIVE_BRIGHT, CHANGED, Colour, RELEVANT};
+use foveate_pictures::palette::{ACTIVE, ACTIVE_BRIGHT, CHANGED, Colour, RELEVANT, SERIES};
 
 use super::activity_chart::ActivityChart;
 use super::arrow::Arrow;
-use super::canvas::{PictureCanvas, PictureLayout, TEXT};
+use super::canvas::{PictureCanvas, PictureLayout, TEXT, mix};
 use super::class_marks::ClassMarks;
-use super::font;
+use super::legend::{Legend, LegendKey, LegendMark, NOT_SENT, SENT};
 use super::picture_series::PicturePainter;
 use super::raw_image::to_byte;
 use super::sink::SinkFrame;
@@ -28,17 +30,32 @@ const ARROW: Colour = [255, 255, 255];
 const FAINT: f64 = 0.3;
 /// The length of the shortest arrow in pixels of the picture.
 const SHORTEST_ARROW: f64 = 3.0;
+/// The colour of regions of which only means are sent, and its opacity.
+const MEANS: (Colour, f64) = (SERIES[2], 0.47);
+/// The share of brightness that regions keep that are not sent.
+const DARK: f64 = 0.27;
+
+/// The style of an overlay.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum OverlayStyle {
+    /// What is sent is bright, what is not sent is dark, and means are tinted.
+    #[default]
+    Sent,
+    /// The frame is dimmed, with a colour for each of the decisions about a region, and outlines.
+    Outlines,
+}
 
 /// The painter of overlays. It records the share of active regions so far.
 pub(super) struct OverlayPainter {
     /// False for a stream of packets without scores.
     has_scores: bool,
+    style: OverlayStyle,
     activity_chart: ActivityChart,
 }
 
 impl OverlayPainter {
-    pub(super) fn new(has_scores: bool) -> Self {
-        Self { has_scores, activity_chart: ActivityChart::default() }
+    pub(super) fn new(style: OverlayStyle, has_scores: bool) -> Self {
+        Self { has_scores, style, activity_chart: ActivityChart::default() }
     }
 }
 
@@ -54,6 +71,8 @@ pub struct OverlayFrame<'a> {
     /// True if the regions have the classes of the camera's configuration. The marks of other
     /// classes are not known.
     pub has_own_map: bool,
+    /// The style.
+    pub style: OverlayStyle,
 }
 
 /// Draws the overlay of a frame as a run does, without the legend and the chart below it. Returns the
@@ -70,7 +89,10 @@ pub fn draw_overlay(shown: OverlayFrame<'_>) -> (u32, u32, Vec<u8>) {
 impl OverlayFrame<'_> {
     /// Draws the frame, the decisions, the marks of classes and the arrows.
     fn draw(&self, canvas: &mut PictureCanvas, layout: PictureLayout, has_scores: bool) {
-        draw_frame(canvas, self, layout);
+        match self.style {
+            OverlayStyle::Sent => draw_sent(canvas, self, layout),
+            OverlayStyle::Outlines => draw_outlines(canvas, self, layout),
+        }
         let marks = ClassMarks::of_camera(self.camera).filter(|_| self.has_own_map);
         if let Some(marks) = marks {
             marks.draw(canvas, self.camera.region_size() * layout.scale, layout);
@@ -82,56 +104,94 @@ impl OverlayFrame<'_> {
 impl PicturePainter for OverlayPainter {
     fn paint(&mut self, sink_frame: &SinkFrame<'_>) -> PictureCanvas {
         let layout = PictureLayout::of_camera(sink_frame.camera);
-        let line = (font::SIZE.1 + 4) * layout.dot;
-        let marks = ClassMarks::of_camera(sink_frame.camera);
-        let legend = if marks.is_some() { 2 * line } else { line };
-        let height = layout.frame_height + legend + ActivityChart::HEIGHT_DOTS * layout.dot;
+        let camera = sink_frame.camera;
+        let active = sink_frame.outcome.active.iter().map(|&bit| u32::from(bit)).sum();
+        let legend = Legend::new(legend_keys(camera, self.style, active), layout);
+        let chart = ActivityChart::HEIGHT_DOTS * layout.dot;
+        let height = layout.frame_height + legend.height + chart;
         let mut canvas = PictureCanvas::new(layout.width, height);
         let shown = OverlayFrame {
-            camera: sink_frame.camera,
+            camera,
             outcome: sink_frame.outcome,
             frame: &sink_frame.source.frame,
             // A recording has the version of the map and not its classes. Version 0 is the map of
             // the design; the classes of any other version are not known.
             has_own_map: sink_frame.map_version.is_none_or(|version| version == 0),
+            style: self.style,
         };
         shown.draw(&mut canvas, layout, self.has_scores);
-        let regions = sink_frame.camera.regions();
-        let active = sink_frame.outcome.active.iter().map(|&bit| u32::from(bit)).sum();
-        draw_legend(&mut canvas, layout, active, sink_frame.camera);
-        if let Some(marks) = marks {
-            marks.draw_legend(&mut canvas, layout, layout.frame_height + line + 2 * layout.dot);
-        }
-        self.activity_chart
-            .push(active.into(), (layout.width / ActivityChart::bar_width(layout)) as usize);
-        self.activity_chart.draw(&mut canvas, layout, regions.into(), ACTIVE_BRIGHT);
+        legend.draw(&mut canvas);
+        self.activity_chart.push(active.into(), ActivityChart::most_bars(layout));
+        self.activity_chart.draw(&mut canvas, layout, camera.regions().into());
         canvas
     }
 }
 
-fn draw_frame(canvas: &mut PictureCanvas, shown: &OverlayFrame<'_>, layout: PictureLayout) {
-    let OverlayFrame { camera, outcome, frame, .. } = *shown;
-    let side = camera.region_size();
-    let cell = side * layout.scale;
+/// Draws every pixel in the colour that `colour_of` returns for its grey level and its region.
+fn draw_pixels(
+    canvas: &mut PictureCanvas,
+    shown: &OverlayFrame<'_>,
+    layout: PictureLayout,
+    colour_of: impl Fn(u8, usize) -> Colour,
+) {
+    let OverlayFrame { camera, frame, .. } = *shown;
+    let (side, scale) = (camera.region_size(), layout.scale);
     for y in 0..frame.height() {
         for x in 0..frame.width() {
             let region = y / side * camera.columns() + x / side;
-            let grey = u32::from(convert_depth(frame.get(x, y), frame.bits(), 8));
-            let colour = tinted(grey, region_tint(outcome, region));
-            let scale = layout.scale;
+            let grey = to_byte(convert_depth(frame.get(x, y), frame.bits(), 8));
+            let colour = colour_of(grey, region as usize);
             canvas.fill_rectangle(x * scale, y * scale, scale, scale, colour);
         }
     }
+}
+
+/// Returns the area of every region, with its number.
+fn region_areas(
+    camera: &Camera,
+    layout: PictureLayout,
+) -> impl Iterator<Item = (usize, [u32; 4])> + use<> {
+    let (cell, columns) = (camera.region_size() * layout.scale, camera.columns());
+    (0..camera.regions()).map(move |region| {
+        (region as usize, layout.region_area(cell, (region % columns, region / columns)))
+    })
+}
+
+fn draw_sent(canvas: &mut PictureCanvas, shown: &OverlayFrame<'_>, layout: PictureLayout) {
+    let OverlayFrame { camera, outcome, .. } = *shown;
+    draw_pixels(canvas, shown, layout, |grey, region| shade(grey, outcome.actions[region]));
+    if camera.region_size() * layout.scale < SMALLEST_GRID {
+        return;
+    }
+    for (region, area) in region_areas(camera, layout) {
+        if outcome.actions[region] == RegionAction::Summarize {
+            canvas.draw_border(area, 1, mix(MEANS.0, TEXT, 0.5));
+        }
+    }
+}
+
+/// Returns the colour of a pixel of a region with an action.
+fn shade(grey: u8, action: RegionAction) -> Colour {
+    match action {
+        RegionAction::Forward => [grey; 3],
+        RegionAction::Summarize => mix([grey; 3], MEANS.0, MEANS.1),
+        RegionAction::Hold | RegionAction::Blank => mix([0; 3], [grey; 3], DARK),
+    }
+}
+
+fn draw_outlines(canvas: &mut PictureCanvas, shown: &OverlayFrame<'_>, layout: PictureLayout) {
+    let OverlayFrame { camera, outcome, .. } = *shown;
+    draw_pixels(canvas, shown, layout, |grey, region| {
+        tinted(grey.into(), region_tint(outcome, region))
+    });
+    let cell = camera.region_size() * layout.scale;
     if cell < SMALLEST_GRID {
         return;
     }
-    for (column, row) in
-        (0..camera.rows()).flat_map(|row| (0..camera.columns()).map(move |column| (column, row)))
-    {
-        let area @ [left, top, width, height] = layout.region_area(cell, (column, row));
+    for (region, area) in region_areas(camera, layout) {
+        let [left, top, width, height] = area;
         lighten_line(canvas, [left, top, width, 1]);
         lighten_line(canvas, [left, top, 1, height]);
-        let region = (row * camera.columns() + column) as usize;
         if outcome.active[region] {
             canvas.draw_border(area, 1 + cell / 40, ACTIVE_BRIGHT);
         }
@@ -191,36 +251,35 @@ fn lighten_line(canvas: &mut PictureCanvas, [left, top, width, height]: [u32; 4]
     }
 }
 
-fn draw_legend(canvas: &mut PictureCanvas, layout: PictureLayout, active: u32, camera: &Camera) {
-    let regions = camera.regions();
-    let (dot, top) = (layout.dot, layout.frame_height + 2 * layout.dot);
-    let height = font::SIZE.1 * dot;
-    let permille = (u64::from(active) * 1000 + u64::from(regions) / 2) / u64::from(regions);
-    let share = format!("Active {}.{}%", permille / 10, permille % 10);
-    let mut left = 2 * dot;
-    for (colour, text) in [(ACTIVE, share.as_str()), (RELEVANT, "SRS only"), (CHANGED, "TRS only")]
-    {
-        canvas.fill_rectangle(left, top, height, height, colour);
-        if colour == ACTIVE {
-            canvas.draw_border([left, top, height, height], dot.div_ceil(2), ACTIVE_BRIGHT);
-        }
-        left = canvas.draw_text(left + height + dot, top, dot, text) + 3 * dot;
-    }
+/// Returns the keys of the legend. `active` is the number of regions that are sent.
+fn legend_keys(camera: &Camera, style: OverlayStyle, active: u32) -> Vec<LegendKey> {
+    let regions = u64::from(camera.regions());
+    let permille = (u64::from(active) * 1000 + regions / 2) / regions;
+    let share = format!("sent: {}.{} %", permille / 10, permille % 10);
+    let sent = |mark| LegendKey { mark, text: share.clone(), longest: "sent: 100.0 %".to_owned() };
+    let mut keys = match style {
+        OverlayStyle::Sent => vec![sent(SENT), LegendKey::new(NOT_SENT, "not sent")],
+        OverlayStyle::Outlines => vec![
+            sent(LegendMark::Filled(ACTIVE, ACTIVE_BRIGHT)),
+            LegendKey::new(LegendMark::Filled(RELEVANT, RELEVANT), "relevant, unchanged"),
+            LegendKey::new(LegendMark::Filled(CHANGED, CHANGED), "changed, irrelevant"),
+        ],
+    };
     if camera.periphery().is_some() {
-        canvas.draw_border([left, top, height, height], dot.div_ceil(2), TEXT);
-        left = canvas.draw_text(left + height + dot, top, dot, "Means") + 3 * dot;
+        let mark = match style {
+            OverlayStyle::Sent => LegendMark::Filled(MEANS.0, mix(MEANS.0, TEXT, 0.5)),
+            OverlayStyle::Outlines => LegendMark::Border(TEXT),
+        };
+        keys.push(LegendKey::new(mark, "only averages sent"));
     }
     if camera.displacement_feature().is_some() {
-        let [start, top_edge, side] = [left, top, height].map(f64::from);
-        let middle = top_edge + side / 2.0;
-        let (tail, tip) = ([start, middle], [start + 2.0 * side, middle]);
-        Arrow { tail, tip, head_width: side }.draw(canvas, ARROW, 1.0);
-        canvas.draw_text(left + 2 * height + dot, top, dot, "Moved");
+        keys.push(LegendKey::new(LegendMark::Arrow(ARROW), "moved"));
     }
+    keys.extend(ClassMarks::of_camera(camera).iter().flat_map(ClassMarks::legend_keys));
+    keys
 }
 
-fn region_tint(outcome: &FrameOutcome, region: u32) -> Option<Colour> {
-    let region = region as usize;
+fn region_tint(outcome: &FrameOutcome, region: usize) -> Option<Colour> {
     match (outcome.srs[region], outcome.trs[region]) {
         (true, true) => Some(ACTIVE),
         (true, false) => Some(RELEVANT),
@@ -243,6 +302,22 @@ mod tests {
     use foveate_pictures::palette::vision::{VISIONS, distance};
 
     use super::*;
+
+    /// Also in grey, where a border marks means: what is sent is brighter than what is not.
+    #[test]
+    fn what_is_sent_is_distinguishable_with_any_colour_vision() {
+        use RegionAction::{Blank, Forward, Hold, Summarize};
+        for (kind, vision) in VISIONS.into_iter().enumerate() {
+            for grey in 48..=255 {
+                let colour = |action| shade(grey, action);
+                assert_eq!(colour(Hold), colour(Blank));
+                let far = distance(colour(Forward), colour(Hold), vision);
+                assert!(far > 20.0, "{kind} {grey} sent {far}");
+                let far = distance(colour(Summarize), colour(Hold), vision);
+                assert!(far > 15.0, "{kind} {grey} means {far}");
+            }
+        }
+    }
 
     #[test]
     fn states_are_distinguishable_with_any_colour_vision() {

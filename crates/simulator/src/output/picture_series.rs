@@ -21,7 +21,7 @@ pub(super) trait PicturePainter: Send {
 }
 
 /// The height of the largest legend and chart below a painted frame in pixels.
-const MAX_FOOTER_HEIGHT: u32 = 256;
+const MAX_FOOTER_HEIGHT: u32 = 320;
 
 /// The files of a series.
 enum SeriesFiles {

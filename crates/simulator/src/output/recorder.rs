@@ -84,7 +84,7 @@ impl RunRecorder {
             sinks.push(Box::new(PictureSeriesSink::rendered(folder, format, interrupt)?));
         }
         if let Some(format) = options.overlay {
-            let overlay = OverlayPainter::new(has_scores);
+            let overlay = OverlayPainter::new(options.overlay_style, has_scores);
             sinks.push(Box::new(PictureSeriesSink::with_painter(
                 folder,
                 "overlay",

@@ -8,8 +8,9 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::support::{STREET, frames, names, outcomes, street};
+use foveate_camera::RegionAction;
 use foveate_frame::convert_depth;
-use foveate_simulator::{PictureFormat, RunOptions};
+use foveate_simulator::{OverlayStyle, PictureFormat, RunOptions};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Tool, Toolchain};
 use image::RgbImage;
@@ -26,14 +27,49 @@ fn pictures(folder: &Path, name: &str) -> Vec<RgbImage> {
     (0..5).map(picture).collect()
 }
 
+/// What is sent is as bright as the frame, what is not sent is dark, and means are tinted.
 #[test]
-fn the_overlay_shows_each_state_in_its_colour() {
+fn the_overlay_shows_what_is_sent() {
+    let folder = tempfile::tempdir().unwrap();
+    let means = [&STREET[..], &["render.irrelevant=\"mean\""]].concat();
+    for overrides in [&STREET[..], &means] {
+        let output = folder.path().join(overrides.len().to_string());
+        street(&output, overrides, &RunOptions { overlay: Some(PictureFormat::Png), ..NOTHING() });
+        let sources = frames(&support::design(overrides));
+        let shown = pictures(&output, "overlay").into_iter().zip(outcomes(overrides));
+        let mut tinted = 0;
+        for ((picture, outcome), source) in shown.zip(sources) {
+            for region in 0..30 {
+                let (x, y) = (region % 6 * 8 + 3, region / 6 * 8 + 3);
+                let colour = picture.get_pixel(x * SCALE + 2, y * SCALE + 2).0;
+                let grey = source.get(x, y) as u8;
+                match outcome.actions[region as usize] {
+                    RegionAction::Forward => assert_eq!(colour, [grey; 3]),
+                    RegionAction::Summarize => {
+                        assert!(colour[0] > colour[1] && colour[2] > colour[1], "{colour:?}");
+                        tinted += 1;
+                    }
+                    RegionAction::Hold | RegionAction::Blank => {
+                        assert!(
+                            colour == [colour[0]; 3] && 3 * u32::from(colour[0]) <= grey.into()
+                        );
+                    }
+                }
+            }
+        }
+        assert_eq!(tinted > 0, overrides.len() > STREET.len());
+    }
+}
+
+#[test]
+fn the_outlines_show_each_state_in_its_colour() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
-    street(&output, &STREET, &RunOptions { overlay: Some(PictureFormat::Png), ..NOTHING() });
+    let outlines = RunOptions { overlay_style: OverlayStyle::Outlines, ..NOTHING() };
+    street(&output, &STREET, &RunOptions { overlay: Some(PictureFormat::Png), ..outlines });
     assert!(!output.join("rendered").exists());
     for (picture, outcome) in pictures(&output, "overlay").iter().zip(outcomes(&STREET)) {
-        assert_eq!(picture.dimensions(), (45 * SCALE, 38 * SCALE + (5 + 4 + 32) * DOT));
+        assert_eq!(picture.dimensions(), (45 * SCALE, 38 * SCALE + (9 + 9 + 28) * DOT));
         for region in 0..30 {
             // This pixel is not on a line of the grid.
             let at = ((region % 6 * 8 + 3) * SCALE, (region / 6 * 8 + 3) * SCALE);
@@ -60,7 +96,7 @@ fn arrows_show_where_content_has_moved() {
     let image = |name: &str, shift: (u32, u32)| {
         let inside = |at: u32, shift: u32| matches!((at + 16 - shift) % 8, 2 | 3);
         support::grey(&folder.path().join(name), 32, 16, |x, y| match x {
-            0..16 if inside(x, shift.0) && inside(y, shift.1) => 255,
+            0..16 if inside(x, shift.0) && inside(y, shift.1) => 200,
             _ => 20,
         })
     };
@@ -114,7 +150,7 @@ fn the_overlay_shows_the_classes_of_regions() {
     let picture = image::open(output.join("overlay/000000.png")).unwrap().into_rgb8();
     // Each pixel is enlarged to 10 x 10, and a dot is 2 x 2.
     const CELL: u32 = 80;
-    assert_eq!(picture.dimensions(), (480, 320 + (2 * (5 + 4) + 32) * 2));
+    assert_eq!(picture.dimensions(), (480, 320 + (2 * 9 + 9 + 28) * 2));
     let at = |x: u32, y: u32| picture.get_pixel(x, y).0;
     let [keen, always] = [[0, 114, 178], [213, 94, 0]];
     // The area of regions 2,1 to 3,2 has a line around it and none inside.
@@ -136,7 +172,7 @@ fn the_overlay_shows_the_classes_of_regions() {
         (darkest.clone().min().unwrap(), darkest.max().unwrap())
     };
     let (dark, bright) = shades(0, 1);
-    assert!(dark * 2 < bright, "{dark} {bright}");
+    assert!(dark * 4 < bright * 3, "{dark} {bright}");
     let (dark, bright) = shades(1, 1);
     assert!(dark * 5 > bright * 4, "{dark} {bright}");
     // A map of one class has a legend of one class, and none with normal regions alone.
@@ -152,24 +188,31 @@ fn the_overlay_shows_the_classes_of_regions() {
     };
     assert_eq!([keen, always].map(|colour| has(&only_keen, colour)), [true, false]);
     assert_eq!([keen, always].map(|colour| has(&picture, colour)), [true; 2]);
-    assert_eq!(legend("zones={}").height(), 320 + (5 + 4 + 32) * 2);
+    assert_eq!(legend("zones={}").height(), 320 + (9 + 9 + 28) * 2);
 }
 
-/// The bar of every frame has the height of the share of active regions.
+/// The bars fill the width. Each has the height of the share of active regions, on the smallest scale for all
+/// bars but the first, which ends at the top.
 #[test]
 fn the_strip_shows_the_share_of_active_regions() {
+    const HEIGHT: u32 = 28 * DOT;
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
     street(&output, &STREET, &RunOptions { overlay: Some(PictureFormat::Png), ..NOTHING() });
     let pictures = pictures(&output, "overlay");
     let last = &pictures[4];
-    for (t, outcome) in (0..).zip(outcomes(&STREET)) {
-        let active = outcome.active.iter().filter(|&&bit| bit).count() as u32;
-        let column = t * 2 * DOT;
-        let lit = (0..32 * DOT)
+    let active = outcomes(&STREET).into_iter();
+    let active: Vec<u32> =
+        active.map(|outcome| outcome.active.iter().filter(|&&bit| bit).count() as u32).collect();
+    let most = active[1..].iter().max().unwrap();
+    let scale =
+        [10, 20, 50, 100, 200, 500, 1000].into_iter().find(|scale| most * 1000 <= scale * 30);
+    for (t, active) in (0..).zip(active) {
+        let column = last.width() * (2 * t + 1) / 10;
+        let lit = (0..HEIGHT)
             .filter(|y| last.get_pixel(column, last.height() - 1 - y).0 == [70, 230, 180])
             .count() as u32;
-        assert_eq!(lit, active * 32 * DOT / 30, "frame {t}");
+        assert_eq!(lit, (active * 1000 * HEIGHT / (scale.unwrap() * 30)).min(HEIGHT), "frame {t}");
     }
 }
 
