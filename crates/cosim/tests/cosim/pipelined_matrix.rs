@@ -139,7 +139,7 @@ fn summaries_agree() {
             configs.push(config);
         }
     }
-    check_all(&sample(configs, 5));
+    check_all(&sample(configs, 8));
 }
 
 /// Designs with several features, other depths, other sizes or constant thresholds agree.
@@ -214,5 +214,5 @@ fn designs_outside_the_matrix_agree() {
     for (turn, config) in configs.iter_mut().enumerate() {
         config.hardware.pipelining = pipelining_in_turn(turn);
     }
-    check_all(&sample(configs, 5));
+    check_all(&sample(configs, 8));
 }

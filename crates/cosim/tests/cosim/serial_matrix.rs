@@ -67,11 +67,11 @@ fn check_all(cases: &[SerialCase]) {
     assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
 }
 
-/// Checks the cases that cover a matrix, every third one in most runs. The grid counts as a key.
+/// Checks the cases that cover a matrix, every sixth one in most runs. The grid counts as a key.
 fn check_covering(matrix: Vec<SerialCase>) {
     let toml =
         |case: &SerialCase| format!("grid = {:?}\n{}", case.grid, case.design().config().to_toml());
-    check_all(&sample(cover(matrix, toml), 3));
+    check_all(&sample(cover(matrix, toml), 6));
 }
 
 /// Sets the keys that are no axis of a test, in turn.

@@ -96,7 +96,7 @@ fn the_script_that_packages_a_core_for_vivado_asks_for_what_is_there() {
     if !has_tclsh() {
         return;
     }
-    for toml in sample(every_design_on_a_bus(), 4) {
+    for toml in sample(every_design_on_a_bus(), 8) {
         let files = core_files(&design(&toml), &Prefix::default());
         let said = run_package_ip(&files, None).unwrap_or_else(|error| panic!("{toml}{error}"));
         assert!(said.contains(" 6 interfaces, "), "{said}");

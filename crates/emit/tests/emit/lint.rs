@@ -27,10 +27,10 @@ fn check_each_design(
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
-/// Returns the designs that are linted: those that cover the matrices, and a third of them in most
+/// Returns the designs that are linted: those that cover the matrices, and a sixth of them in most
 /// runs.
 fn linted_designs() -> Vec<String> {
-    sample(covering_designs(), 3)
+    sample(covering_designs(), 6)
 }
 
 #[test]
@@ -72,7 +72,7 @@ fn the_memories_of_a_raster_core_are_those_that_it_says() {
         return;
     }
     let (toolchain, cache) = (Toolchain::system(), Cache::temporary().unwrap());
-    for toml in sample(covering_values(raster_matrix()), 3) {
+    for toml in sample(covering_values(raster_matrix()), 6) {
         let design = design(&toml);
         let sources: Vec<Source> =
             verilog(&design, Top::Rcm).into_iter().map(|file| (file.path, file.contents)).collect();
