@@ -50,9 +50,10 @@ pub use frame_packets::{
     write_packets,
 };
 pub use options::{
-    ClockOptions, EventTableOptions, PacketContent, PictureFormat, PixelEventOptions, RunOptions,
+    ClockOptions, EventTableOptions, OverlayStyle, PacketContent, PictureFormat, PixelEventOptions,
+    RunOptions,
 };
-pub use overlay::{OverlayFrame, OverlayStyle, draw_overlay};
+pub use overlay::{OverlayFrame, draw_overlay};
 pub use pixel_camera::{PixelCamera, PixelEvent};
 pub(crate) use recorder::{DISK_FULL, FrameContent, INTERRUPTED, RunRecorder};
 pub use summary::{GridSize, RunSummary, SentCounts, ValueRange};

@@ -8,9 +8,6 @@ use foveate_pictures::palette::{Colour, SERIES};
 use super::canvas::{BACKGROUND, PictureCanvas, PictureLayout};
 use super::legend::{LegendKey, LegendMark};
 
-/// The share by which a stripe of the hatching darkens.
-const HATCHING: f64 = 0.6;
-
 /// The classes of the regions of a camera, with at least one that is not normal.
 pub(super) struct ClassMarks<'a> {
     classes: &'a [RegionClass],
@@ -34,7 +31,7 @@ impl<'a> ClassMarks<'a> {
             let area = layout.region_area(cell, place);
             match class {
                 RegionClass::Normal => {}
-                RegionClass::Off => hatch(canvas, area, layout.dot),
+                RegionClass::Off => canvas.hatch(area, layout.dot),
                 RegionClass::Keen | RegionClass::Always => {
                     self.draw_edges(canvas, place, area, layout.dot);
                 }
@@ -93,14 +90,5 @@ fn class_colour(class: RegionClass) -> Option<Colour> {
         RegionClass::Keen => Some(SERIES[0]),
         RegionClass::Always => Some(SERIES[1]),
         RegionClass::Normal | RegionClass::Off => None,
-    }
-}
-
-/// Darkens every fourth diagonal stripe of an area.
-pub(super) fn hatch(canvas: &mut PictureCanvas, [left, top, width, height]: [u32; 4], dot: u32) {
-    for y in top..top + height {
-        for x in (left..left + width).filter(|x| ((x + y) / dot).is_multiple_of(4)) {
-            canvas.blend(x, y, BACKGROUND, HATCHING);
-        }
     }
 }

@@ -5,7 +5,6 @@ use foveate_pictures::palette::Colour;
 
 use super::arrow::Arrow;
 use super::canvas::{LINE_DOTS, PictureCanvas, PictureLayout, TEXT, TEXT_DOTS, text_width};
-use super::class_marks::hatch;
 
 /// The space between two keys in dots.
 const SPACE_DOTS: u32 = 4;
@@ -57,7 +56,7 @@ impl LegendMark {
             Self::Border(colour) => canvas.draw_border(area, line, colour),
             Self::Hatched => {
                 canvas.fill_rectangle(left, top, side, side, [128; 3]);
-                hatch(canvas, area, dot);
+                canvas.hatch(area, dot);
             }
             Self::Arrow(colour) => {
                 let [start, top, side] = [left, top, side].map(f64::from);

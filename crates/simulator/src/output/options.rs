@@ -1,9 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The options that select the outputs of a run.
 
-use super::overlay::OverlayStyle;
 use foveate_camera::Decimal;
 use foveate_timed::SinkPattern;
+
+/// The style of an overlay.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum OverlayStyle {
+    /// What is sent is bright, what is not sent is dark, and means are tinted.
+    #[default]
+    Sent,
+    /// The frame is dimmed, with a colour for each of the decisions about a region, and outlines.
+    Outlines,
+}
 
 /// The file format of a series of pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

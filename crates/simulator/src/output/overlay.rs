@@ -13,6 +13,7 @@ use foveate_engine::FrameOutcome;
 use foveate_frame::{ByteFrame, convert_depth};
 use foveate_pictures::palette::{ACTIVE, ACTIVE_BRIGHT, CHANGED, Colour, RELEVANT, SERIES};
 
+use super::OverlayStyle;
 use super::activity_chart::ActivityChart;
 use super::arrow::Arrow;
 use super::canvas::{PictureCanvas, PictureLayout, TEXT, mix};
@@ -34,16 +35,6 @@ const SHORTEST_ARROW: f64 = 3.0;
 const MEANS: (Colour, f64) = (SERIES[2], 0.47);
 /// The share of brightness that regions keep that are not sent.
 const DARK: f64 = 0.27;
-
-/// The style of an overlay.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum OverlayStyle {
-    /// What is sent is bright, what is not sent is dark, and means are tinted.
-    #[default]
-    Sent,
-    /// The frame is dimmed, with a colour for each of the decisions about a region, and outlines.
-    Outlines,
-}
 
 /// The painter of overlays. It records the share of active regions so far.
 pub(super) struct OverlayPainter {
