@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Inputs that are not plain images or video: numbered images, archives, raw video, mosaics, and times from a file."""
 import io
+import subprocess
 import zipfile
 
 import numpy as np
@@ -65,3 +66,14 @@ def test_options_of_inputs_are_those_of_the_command(clip, command, tmp_path):
 def test_wrong_options_are_refused(clip, tmp_path, options, error, message):
     with pytest.raises(error, match=message):
         fv.simulate(tmp_path / "f%02d.png", "bare", **options)
+
+
+def test_a_stream_of_several_is_told_of_and_chosen(tmp_path):
+    path = tmp_path / "two.mkv"
+    sources = [word for shade in ["black", "white"] for word in ["-f", "lavfi", "-i", f"color={shade}:size=32x16:rate=5:duration=1"]]
+    subprocess.run(["ffmpeg", "-v", "error", *sources, "-map", "0", "-map", "1", "-c:v", "ffv1", path], check=True)
+    with pytest.warns(UserWarning, match="two.mkv` has 2 video streams.*--video-stream reads another one"):
+        assert next(iter(fv.simulate(path, "paper"))).frame.max() < 32
+    assert next(iter(fv.simulate(path, "paper", video_stream=1))).frame.min() > 200
+    with pytest.raises(ValueError, match="it has no video stream 2"):
+        fv.simulate(path, "paper", video_stream=2)
