@@ -33,8 +33,16 @@ pub(super) enum LogEntry {
 }
 
 /// Parts of messages about data that are no samples.
-const ASIDES: [&str; 6] =
-    ["EXIF data", "in APP2", "ICC markers", "decode_app parser", "APP fields", "SEI"];
+const ASIDES: [&str; 7] = [
+    "EXIF data",
+    "in APP2",
+    "ICC markers",
+    "decode_app parser",
+    "APP fields",
+    "SEI",
+    // The next recording begins in a file of joined ones.
+    "Found unknown-length element with ID 0x18538067",
+];
 /// Parts of messages about references that are not there.
 const REFERENCES: [&str; 3] = [
     "mmco: unref short failure",

@@ -43,7 +43,12 @@ pub(super) fn start(
     probe: &VideoProperties,
     start_us: u64,
 ) -> Result<Option<SeekResult>, FootageError> {
-    if start_us < MIN_SEEK_US || !knows_times(&probe.container) {
+    // Recordings that were joined have the duration of the first one, or none. In them a time is that
+    // of several frames.
+    let is_within = probe.duration_s.is_some_and(|seconds| {
+        Duration::try_from_secs_f64(seconds).is_ok_and(|all| all > Duration::from_micros(start_us))
+    });
+    if start_us < MIN_SEEK_US || !knows_times(&probe.container) || !is_within {
         return Ok(None);
     }
     let place = start_us - MARGIN_US;

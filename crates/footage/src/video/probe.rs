@@ -16,7 +16,7 @@ use crate::orientation::FrameTurn;
 const LIMIT: Duration = Duration::from_secs(60);
 
 /// The properties of a video.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct VideoProperties {
     /// The number of the stream among the video streams, from 0.
     pub(super) stream: usize,
@@ -26,6 +26,8 @@ pub(super) struct VideoProperties {
     pub(super) frames: Option<u64>,
     /// The names of the container, separated by commas.
     pub(super) container: String,
+    /// The duration in seconds, if the container states it.
+    pub(super) duration_s: Option<f64>,
     /// The name of the codec.
     pub(super) codec: String,
     /// The name of the pixel format. It is empty for a medium that was not probed.
@@ -48,6 +50,7 @@ struct FfprobeAnswer {
 struct FfprobeContainer {
     #[serde(default)]
     format_name: String,
+    duration: Option<String>,
 }
 
 impl Default for VideoProperties {
@@ -61,6 +64,7 @@ impl Default for VideoProperties {
             stream_warning,
             frames: None,
             container,
+            duration_s: None,
             codec,
             pixel_format,
             colour_range,
@@ -85,7 +89,7 @@ impl VideoProperties {
             .args(["-v", "error", "-select_streams", "v"])
             .args([
                 "-show_entries",
-                "stream=pix_fmt,codec_name,color_range,width,height,nb_frames:format=format_name:\
+                "stream=pix_fmt,codec_name,color_range,width,height,nb_frames:format=format_name,duration:\
                  stream_disposition:stream_side_data=displaymatrix",
             ])
             .args(["-of", "json"])
@@ -118,6 +122,7 @@ impl VideoProperties {
             stream_warning: warning,
             frames,
             container: answer.format.format_name,
+            duration_s: answer.format.duration.and_then(|text| text.parse().ok()),
             codec: stream.codec_name,
             pixel_format: stream.pix_fmt,
             turn: matrix.map_or(Ok(FrameTurn::default()), |text| turn_of_matrix(&text)),

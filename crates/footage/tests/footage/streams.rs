@@ -150,6 +150,25 @@ fn a_clock_that_goes_back_goes_on() {
     }
 }
 
+/// A time of the container is that of several frames here, so a late start is none by that time.
+#[test]
+fn a_late_start_follows_the_clock_that_goes_on() {
+    if !tools() {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    for (name, live) in [("file.mkv", "0"), ("live.mkv", "1")] {
+        let images = ["-c:v", "mjpeg", "-pix_fmt", "yuvj420p", "-live", live];
+        let part = fs::read(clip(dir.path(), name, &images)).unwrap();
+        let twice = dir.path().join(format!("twice_{name}"));
+        fs::write(&twice, part.repeat(2)).unwrap();
+        let selection = FrameSelection { start_us: Some(5_000_000), ..FrameSelection::default() };
+        let seen = read(&twice, &InputOptions { selection, ..InputOptions::default() }).unwrap();
+        assert_eq!((seen.times.len(), seen.problem), (75, None), "{name}");
+        assert_eq!(seen.times[0], 5_000_000, "{name}");
+    }
+}
+
 /// A stream of images has all frames, whatever its name is, and is refused among other images.
 #[test]
 fn images_behind_each_other_are_a_stream() {
