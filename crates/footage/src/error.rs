@@ -352,7 +352,7 @@ impl From<ToolError> for FootageError {
 /// Returns what to do about a camera of the network, by what ffmpeg says about it.
 fn network_advice(problem: &str) -> &'static str {
     let has = |parts: &[&str]| parts.iter().any(|part| problem.contains(part));
-    if has(&["461 ", "Nonmatching transport"]) {
+    if has(&["461 Unsupported", "Nonmatching transport"]) {
         "it sends over UDP only, and only TCP is read; allow RTP over TCP (interleaved) in its settings, or put a relay \
          in between, for example MediaMTX"
     } else if has(&["matches no streams"]) {
@@ -361,9 +361,9 @@ fn network_advice(problem: &str) -> &'static str {
         "it has sent no key frame, with which decoding begins; set a shorter interval of key frames in its settings"
     } else if has(&["sent nothing"]) {
         "it has answered, but it sends no pictures; check that it is on and that no other program holds its stream"
-    } else if has(&["401", "403"]) {
+    } else if has(&["401 Unauthorized", "403 Forbidden"]) {
         "check user and password with `ffprobe URL`"
-    } else if has(&["404"]) {
+    } else if has(&["404 Not Found"]) {
         "check the path of the address with `ffprobe URL`"
     } else {
         "check the address, user and password with `ffprobe URL`, and that the camera can be reached from here"
@@ -408,7 +408,7 @@ mod tests {
             ("it has sent nothing for 10 s", "sends no pictures"),
             (
                 "ffmpeg reports 2 faults, the first: method DESCRIBE failed: 401 Unauthorized",
-                "user and password",
+                "check user and password with",
             ),
             (
                 "ffmpeg reports 2 faults, the first: method DESCRIBE failed: 404 Not Found",
@@ -416,6 +416,11 @@ mod tests {
             ),
             (
                 "ffmpeg reports: Connection to tcp://127.0.0.1:9 failed: Connection refused",
+                "reached from here",
+            ),
+            ("ffmpeg reports 404 faults, the first: Invalid data found", "reached from here"),
+            (
+                "ffmpeg reports: Connection to tcp://10.9.9.9:554 failed: Connection timed out",
                 "reached from here",
             ),
         ] {

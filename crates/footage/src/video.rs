@@ -120,7 +120,11 @@ impl VideoMedium {
 /// The frames of a video.
 pub(crate) struct VideoFeed {
     medium: VideoMedium,
+    ffmpeg: DecodingParameters,
+    codec: String,
     decoder: VideoDecoder,
+    /// True if decoding began at a later position.
+    is_sought: bool,
     total: Option<u64>,
     /// The pixel format as ffprobe names it.
     pixel_format: String,
@@ -187,16 +191,20 @@ impl VideoFeed {
             interrupt,
         };
         let sought = late_start::start(&tools, &ffmpeg, &probe, start_us)?;
+        let is_sought = sought.is_some();
         let (decoder, first_pts) = match sought {
             Some(sought) => (sought.decoder, Some(sought.first_pts)),
             None => (VideoDecoder::start(&ffmpeg, StartPosition::BeginningWithOwnTimes)?, None),
         };
         Ok(Self {
             medium,
+            codec: probe.codec,
             decoder,
+            is_sought,
             total: probe.frames,
             pixel_format: probe.pixel_format,
-            interrupt: ffmpeg.interrupt,
+            interrupt: ffmpeg.interrupt.clone(),
+            ffmpeg,
             bits,
             rate,
             clock: VideoClock::new(rate),
@@ -233,6 +241,12 @@ impl VideoFeed {
     /// Determines the problem of the video, if any, once there are no more frames.
     fn determine_problem(&mut self) -> Result<(), FootageError> {
         let mut problem = self.decoder.finish()?;
+        if problem.is_none()
+            && let Some(missing) = self.decoder.missing_reference()
+            && (self.is_sought || late_start::begins_cleanly(&self.ffmpeg, &self.codec)?)
+        {
+            problem = Some(missing);
+        }
         match &self.medium {
             VideoMedium::File(path) => {
                 problem = truncated_avi::truncation_problem(path).or(problem);

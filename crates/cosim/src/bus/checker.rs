@@ -286,7 +286,7 @@ impl<'a> SessionChecker<'a> {
         }
         let newest = self.map_versions.iter().rfind(|(clock, _)| *clock < left);
         self.facts.frames_behind_commit +=
-            u64::from(newest.is_some_and(|&(_, version)| version != map_version));
+            u64::from(newest.is_some_and(|&(_, version)| version == map_version.wrapping_add(1)));
         let before = std::mem::replace(&mut self.map_version, map_version);
         self.facts.maps_by_turns += u64::from(sent.maps.take_turns && before != map_version);
         let own = self.checker.layout.info().clone();

@@ -117,18 +117,23 @@ impl<'a> SceneBuilder<'a> {
         traffic.send_frame(banks.frame(self.frame_source().noise_frame()));
         traffic.send_frame(banks.frame(self.frame_source().noise_frame()));
         traffic.drain();
-        // A reset clears the address. A commit that begins at the edge of a reset waits for its end.
+        // A reset clears the address. A reset at the edge after the write of a commit cancels it; at
+        // the next edge the commit waits for its end.
         let address = self.address("zone_address");
-        traffic.write(address, 1);
-        traffic.read(control, ExpectedRead::Value(u32::from(banks.version) << 16));
-        traffic.wait_for_accesses();
-        traffic.write_bytes(control, 1, ALL_BYTES);
-        traffic.wait_for_taken_write();
-        traffic.wait_clocks(1);
-        traffic.reset_for(1);
-        banks.commit();
-        traffic.read(address, ExpectedRead::Value(0));
-        traffic.read(control, ExpectedRead::Value(u32::from(banks.version) << 16));
+        for waits in [1, 0] {
+            traffic.write(address, 1);
+            traffic.read(control, ExpectedRead::Value(u32::from(banks.version) << 16));
+            traffic.wait_for_accesses();
+            traffic.write_bytes(control, 1, ALL_BYTES);
+            traffic.wait_for_taken_write();
+            traffic.wait_clocks(waits);
+            traffic.reset_for(1);
+            if waits > 0 {
+                banks.commit();
+            }
+            traffic.read(address, ExpectedRead::Value(0));
+            traffic.read(control, ExpectedRead::Value(u32::from(banks.version) << 16));
+        }
         traffic.write(address, 1);
         traffic.reset_for(1);
         self.enable_waiting(traffic);

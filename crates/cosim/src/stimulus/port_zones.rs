@@ -41,7 +41,7 @@ struct ClassMemoryWriter {
     addresses: usize,
     /// The choices whose maps the committed and the other bank hold, where they are known.
     held: [Option<ClassChoice>; 2],
-    /// True until the first commit.
+    /// True until the first sequence with a known map.
     is_new: bool,
     /// The inputs that write the map of a sequence, of the next clocks.
     planned: VecDeque<ClassMapInputs>,

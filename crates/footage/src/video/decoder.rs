@@ -153,7 +153,12 @@ impl VideoDecoder {
         match self.stream.next_line_within(limit) {
             Ok(Some(line)) if line.ends_with("timed out") => {
                 self.stream.stop();
-                self.log.refuse(ToolError::Silent { limit: NETWORK_TIMEOUT }.to_string());
+                // A camera that is not there has not answered.
+                if line.contains("Connection to ") {
+                    self.log.read_line(&line);
+                } else {
+                    self.log.refuse(ToolError::Silent { limit: NETWORK_TIMEOUT }.to_string());
+                }
                 Ok(None)
             }
             Err(error @ ToolError::Silent { .. }) => {
@@ -188,6 +193,11 @@ impl VideoDecoder {
         let scaled = since * i128::from(numerator) * 1_000_000;
         let denominator = i128::from(denominator.max(1));
         (scaled + denominator / 2).div_euclid(denominator)
+    }
+
+    /// Returns the fault that a reference was missing before the first frame.
+    pub(super) fn missing_reference(&self) -> Option<String> {
+        self.log.missing_reference()
     }
 
     /// Returns the problem of the video after its last frame, if there is one.

@@ -6,8 +6,8 @@
 //! * what decoders say before decoding begins. ffmpeg then tries all streams, also sound, and
 //!   decodes the chosen one again afterwards;
 //! * what concerns neither samples nor references, such as EXIF data in an APP segment ([`ASIDES`]);
-//! * missing references of frames before the first one. A stream that was cut without being encoded
-//!   anew begins with such frames, which are not shown ([`REFERENCES`]). Later they are a sign of loss.
+//! * missing references before the first frame, if the stream was cut without being encoded anew. It
+//!   then begins with frames that are not shown ([`REFERENCES`]). Elsewhere they are a sign of loss.
 
 use super::pixel_formats::{SampleFormat, sample_format};
 use crate::MAX_SIDE;
@@ -33,13 +33,10 @@ pub(super) enum LogEntry {
 }
 
 /// Parts of messages about data that are no samples.
-const ASIDES: [&str; 7] = [
+const ASIDES: [&str; 4] = [
     "EXIF data",
-    "in APP2",
-    "ICC markers",
     "decode_app parser",
     "APP fields",
-    "SEI",
     // The next recording begins in a file of joined ones.
     "Found unknown-length element with ID 0x18538067",
 ];
@@ -60,6 +57,7 @@ pub(super) struct FfmpegLog {
     stage: DecodingStage,
     faults: u64,
     first_fault: Option<String>,
+    missing_reference: Option<String>,
     /// The reason why a frame that ffmpeg announced cannot be taken.
     refusal: Option<String>,
 }
@@ -82,6 +80,7 @@ impl FfmpegLog {
             stage: DecodingStage::Probing,
             faults: 0,
             first_fault: None,
+            missing_reference: None,
             refusal: None,
         }
     }
@@ -102,11 +101,15 @@ impl FfmpegLog {
             self.stage = self.stage.max(DecodingStage::Begun);
         }
         let said = self.fault_text(&line)?;
-        self.faults += 1;
-        if self.first_fault.is_none() {
-            let plain: String = said.replace(char::is_control, " ");
-            self.first_fault = Some(plain.trim().chars().take(MAX_FAULT_LENGTH).collect());
+        let plain = said.replace(char::is_control, " ");
+        let plain = plain.trim().chars().take(MAX_FAULT_LENGTH).collect();
+        let is_missing = REFERENCES.iter().any(|part| said.contains(part));
+        if self.stage < DecodingStage::FrameAnnounced && is_missing {
+            self.missing_reference.get_or_insert(plain);
+            return None;
         }
+        self.faults += 1;
+        self.first_fault.get_or_insert(plain);
         None
     }
 
@@ -118,19 +121,24 @@ impl FfmpegLog {
             .iter()
             .find_map(|level| line.text.strip_prefix(level))
             .or_else(|| line.text.strip_prefix("[warning] ").filter(of_corruption))?;
-        let has_any = |parts: &[&str]| parts.iter().any(|part| said.contains(part));
         // The muxer of raw frames complains about missing times, which are not a fault of the video.
         let is_other = line.component == "rawvideo"
             || self.stage == DecodingStage::Probing && self.is_of_other_stream(line, said);
-        let is_harmless =
-            has_any(&ASIDES) || self.stage < DecodingStage::FrameAnnounced && has_any(&REFERENCES);
-        (!is_other && !is_harmless).then_some(said)
+        // The program itself names files, whose names may be anything.
+        let is_aside = !line.component.is_empty() && ASIDES.iter().any(|part| said.contains(part));
+        (!is_other && !is_aside).then_some(said)
     }
 
     /// Returns true for what a decoder says, and for a packet of any stream, while all streams are looked at.
     fn is_of_other_stream(&self, line: &LogLine<'_>, said: &str) -> bool {
         let is_of_decoder = !["", self.container.as_str()].contains(&line.component);
         !self.container.is_empty() && (is_of_decoder || said.starts_with("Packet corrupt"))
+    }
+
+    /// Returns the fault that a reference was missing before the first frame. In a stream that was cut, it
+    /// belongs to frames that are not shown.
+    pub(super) fn missing_reference(&self) -> Option<String> {
+        self.missing_reference.as_ref().map(|said| format!("ffmpeg reports: {said}"))
     }
 
     /// Records the reason why a frame cannot be taken.
@@ -300,6 +308,10 @@ mod tests {
             &[sound, "[avi @ 0x1] [warning] Packet corrupt (stream = 1, dts = 60)."][..],
             &[MAPPING, SHORT, CONFIG, FRAME],
             &[MAPPING, CONFIG, FRAME, exif],
+            &[
+                MAPPING,
+                "[matroska,webm @ 0x1] [error] Found unknown-length element with ID 0x18538067 at pos. 9",
+            ],
         ] {
             assert_eq!(log_of(harmless), None, "{harmless:?}");
         }
@@ -309,6 +321,7 @@ mod tests {
             &["[avi @ 0x1] [error] the index is cut"],
             &["[fatal] no stream"],
             &[MAPPING, CONFIG, FRAME, SHORT],
+            &[MAPPING, "[warning] EXIF data/a.ts: corrupt input packet in stream 0"],
             &[MAPPING, "[vist#0:0/h264 @ 0x1] [dec:h264 @ 0x2] [warning] corrupt decoded frame"],
         ] {
             assert!(log_of(damage).is_some(), "{damage:?}");

@@ -53,7 +53,7 @@ pub(super) fn start(
     }
     let place = start_us - MARGIN_US;
     let place = format!("{}.{:06}", place / 1_000_000, place % 1_000_000);
-    if !starts_cleanly(tools, ffmpeg, &probe.codec, &place)? {
+    if !starts_cleanly(tools, ffmpeg, &probe.codec, StartPosition::SeekTo(&place))? {
         return Ok(None);
     }
     let first = VideoDecoder::start(ffmpeg, StartPosition::BeginningWithContainerTimes)?.peek()?;
@@ -67,6 +67,15 @@ pub(super) fn start(
     Ok(early.then_some(SeekResult { decoder, first_pts }))
 }
 
+/// Returns true if no frame of the video depends on a frame before its beginning.
+pub(super) fn begins_cleanly(
+    ffmpeg: &DecodingParameters,
+    codec: &str,
+) -> Result<bool, FootageError> {
+    let tools = Toolchain::system().with_cancel_flag(ffmpeg.interrupt.flag());
+    starts_cleanly(&tools, ffmpeg, codec, StartPosition::BeginningWithOwnTimes)
+}
+
 fn knows_times(container: &str) -> bool {
     container.split(',').any(|name| ["mp4", "matroska"].contains(&name))
 }
@@ -77,7 +86,7 @@ fn starts_cleanly(
     tools: &Toolchain,
     ffmpeg: &DecodingParameters,
     codec: &str,
-    place: &str,
+    start: StartPosition<'_>,
 ) -> Result<bool, FootageError> {
     let (raw, clean): (&str, fn(u8) -> bool) = match codec {
         "mjpeg" | "prores" | "dnxhd" | "huffyuv" | "ffvhuff" | "utvideo" | "rawvideo" => {
@@ -87,13 +96,7 @@ fn starts_cleanly(
         "hevc" => ("hevc", is_irap),
         _ => return Ok(false),
     };
-    let packet = ffmpeg.input(StartPosition::SeekTo(place)).args([
-        "-c",
-        "copy",
-        "-frames:v",
-        "1",
-        "-copyinkf",
-    ]);
+    let packet = ffmpeg.input(start).args(["-c", "copy", "-frames:v", "1", "-copyinkf"]);
     let packet = tools.run(&packet.args(["-f", raw, "pipe:1"]).timeout(LIMIT))?;
     Ok(packet.is_success() && first_picture(&packet.stdout, codec).is_some_and(clean))
 }

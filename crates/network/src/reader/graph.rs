@@ -77,6 +77,7 @@ pub(super) fn read_graph(
         unknown_names: HashSet::new(),
         folder,
         functions,
+        given_advice: HashSet::new(),
         opset,
         on_problem,
         use_counts: count_uses(graph),
@@ -126,7 +127,7 @@ fn tensor_outputs(outputs: &[(String, GraphValue)]) -> Vec<(String, usize)> {
 }
 
 /// What to do about an operator that selects detections.
-const SELECTION_ADVICE: &str = ", because it selects detections and computes none; export the network without it \
+const SELECTION_ADVICE: &str = "; in most models it selects detections behind the network, so export without it \
     (Ultralytics: `nms=False` and `end2end=False`; other YOLO: without `--end2end`), or cut the model before it with \
     `onnx.utils.extract_model`";
 /// What to do about a function of the model.
@@ -142,6 +143,8 @@ pub(super) struct GraphReader<'a> {
     folder: &'a ModelFolder,
     /// The names of the functions of the model, with their domains.
     functions: HashSet<String>,
+    /// The advice that recorded problems have given.
+    given_advice: HashSet<&'static str>,
     opset: i64,
     on_problem: ProblemPolicy,
     /// The number of uses of each name.
@@ -195,7 +198,10 @@ impl GraphReader<'_> {
         let name = node_name(node, index);
         let operator = full_operator_name(node);
         if !operators::is_supported(&operator) {
-            let advice = self.advice_on_operator(&operator);
+            let mut advice = self.advice_on_operator(&operator);
+            if self.on_problem == ProblemPolicy::Note && !self.given_advice.insert(advice) {
+                advice = "";
+            }
             return Err(NetworkError::UnsupportedOperator { node: name, operator, advice });
         }
         let problem = |problem| NetworkError::InvalidNode {

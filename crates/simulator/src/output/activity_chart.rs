@@ -32,8 +32,7 @@ impl ActivityChart {
     const BAR_DOTS: u32 = 28;
     /// The height with the line of text above the bars, in dots.
     pub(super) const HEIGHT_DOTS: u32 = LINE_DOTS + Self::BAR_DOTS;
-    /// The largest share of regions at the upper end of the scale, in permille. The smallest one that no
-    /// bar passes is taken.
+    /// The upper ends of the scale, in permille. The smallest one that no bar passes is taken.
     const SCALES: [u64; 7] = [10, 20, 50, 100, 200, 500, 1000];
 
     /// Returns the largest number of bars, each of which has two dots or more.
@@ -93,10 +92,10 @@ impl ActivityChart {
         }
         let (dot, top) = (layout.dot, bottom - Self::HEIGHT_DOTS * layout.dot + 2 * layout.dot);
         let share = format!("{} %", scale / 10);
-        canvas.draw_text(2 * dot, top, dot, "Share of regions that are sent, frame by frame");
+        canvas.draw_text(2 * dot, top, dot, "Share sent, by frame");
         let right = canvas.width.saturating_sub(text_width(&share, dot) + 2 * dot);
         canvas.fill_rectangle(
-            right - 2 * dot.min(right / 2),
+            right.saturating_sub(2 * dot),
             top - dot,
             canvas.width,
             (TEXT_DOTS + 2) * dot,

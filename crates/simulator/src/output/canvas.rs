@@ -15,7 +15,8 @@ const MIN_ENLARGED_WIDTH: u32 = 448;
 const MAX_ENLARGED_HEIGHT: u32 = 1024;
 /// The side up to which regions with arrows are enlarged, by a whole factor.
 const MIN_ARROW_CELL: u32 = 16;
-/// The share by which a stripe of the hatching darkens.
+/// The colour of the stripes of a hatching, and their opacity.
+const STRIPE: Colour = [120; 3];
 const HATCHING: f64 = 0.6;
 /// The height of capitals, and of marks beside them, in dots.
 pub(super) const TEXT_DOTS: u32 = 5;
@@ -123,11 +124,11 @@ impl PictureCanvas {
         self.fill_rectangle(left + width - line, top, line, height, colour);
     }
 
-    /// Darkens every fourth diagonal stripe of an area.
+    /// Draws every fourth diagonal stripe of an area in grey.
     pub(super) fn hatch(&mut self, [left, top, width, height]: [u32; 4], dot: u32) {
         for y in top..top + height {
             for x in (left..left + width).filter(|x| ((x + y) / dot).is_multiple_of(4)) {
-                self.blend(x, y, BACKGROUND, HATCHING);
+                self.blend(x, y, STRIPE, HATCHING);
             }
         }
     }

@@ -73,12 +73,14 @@ fn columns_problem(columns: &StringRecord) -> Option<String> {
         return None;
     }
     let line: String = columns.iter().collect::<Vec<_>>().join(",").chars().take(80).collect();
-    let is_number = |word: &str| word.parse::<f64>().is_ok();
-    let is_without_names = line.starts_with('#') || line.split([' ', '\t', ',']).all(is_number);
-    Some(if is_without_names {
+    let has_no_names =
+        |separators: &[char]| line.split(separators).all(|word| word.parse::<f64>().is_ok());
+    Some(if line.starts_with('#') || has_no_names(&[' ', '\t']) {
         "its columns have no names, as in the text of v2e; make a table with times in microseconds, for example with \
          `awk 'BEGIN { print \"t,x,y\" } !/^#/ { printf \"%d,%d,%d\\n\", $1 * 1000000, $2, $3 }' EVENTS.txt`"
             .to_owned()
+    } else if has_no_names(&[',']) {
+        "its columns have no names; put a line with them before it, such as `t,x,y`".to_owned()
     } else {
         format!("its first line, `{line}`, does not name these columns")
     })

@@ -106,6 +106,7 @@ fn a_sensor_that_sees_the_same_correlates_fully() {
         ("t_us,x,y\n1001,24,0\n", "24x8 pixels"),
         ("# Format: [timestamp, x, y, polarity]\n0.001 3 2 1\n", "v2e"),
         ("0.001 3 2 1\n", "v2e"),
+        ("1001,3,2,1\n", "such as `t,x,y`"),
         ("time;a;b\n1;2;3\n", "`time;a;b`"),
         ("Event Stream\u{2}", "an event stream (`.es`)"),
         ("version https://git-lfs.github.com/spec/v1\n", "git lfs pull"),

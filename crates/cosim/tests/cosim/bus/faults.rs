@@ -59,7 +59,7 @@ pub(crate) struct BusFault {
     pub(crate) to: &'static str,
 }
 
-pub(crate) const FAULTS: [BusFault; 24] = [
+pub(crate) const FAULTS: [BusFault; 25] = [
     BusFault {
         check: "the bytes of a packet",
         port: "m_axis_packets",
@@ -227,6 +227,14 @@ pub(crate) const FAULTS: [BusFault; 24] = [
         module: "rcm_axi",
         from: "        if (rst) zone_address_q <= ",
         to: "        if (rst) commit_q <= 1'b0;\n        if (rst) zone_address_q <= ",
+    },
+    BusFault {
+        check: "a commit that a reset cancels",
+        port: "m_axis_packets",
+        design: ZONED,
+        module: "rcm_axi",
+        from: "zone_commit_write && !zone_pending && !rst",
+        to: "zone_commit_write && !zone_pending",
     },
     BusFault {
         check: "a commit in a reset",
