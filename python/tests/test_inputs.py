@@ -73,7 +73,7 @@ def test_a_stream_of_several_is_told_of_and_chosen(tmp_path):
     sources = [word for shade in ["black", "white"] for word in ["-f", "lavfi", "-i", f"color={shade}:size=32x16:rate=5:duration=1"]]
     subprocess.run(["ffmpeg", "-v", "error", *sources, "-map", "0", "-map", "1", "-c:v", "ffv1", path], check=True)
     with pytest.warns(UserWarning, match="two.mkv` has 2 video streams.*--video-stream reads another one"):
-        assert next(iter(fv.simulate(path, "paper"))).frame.max() < 32
-    assert next(iter(fv.simulate(path, "paper", video_stream=1))).frame.min() > 200
+        assert [outcome.frame.max() < 32 for outcome in fv.simulate(path, "paper")] == [True] * 5
+    assert [outcome.frame.min() > 200 for outcome in fv.simulate(path, "paper", video_stream=1)] == [True] * 5
     with pytest.raises(ValueError, match="it has no video stream 2"):
         fv.simulate(path, "paper", video_stream=2)
