@@ -47,15 +47,16 @@ pub fn text_width(text: &str, em: u32) -> u32 {
 
 /// Draws a text whose letters stand on the row `baseline`, from the column `left` on. `blend` gets the
 /// column and row of each pixel, and the share of it that the letters cover, from 0 to 1. `em` is the
-/// size of the text in pixels; capitals have 0.73 of it.
+/// size of the text in pixels; capitals have 0.73 of it. Returns the width of the text.
 pub fn draw_text(
     text: &str,
     em: u32,
     (left, baseline): (u32, u32),
     mut blend: impl FnMut(u32, u32, f64),
-) {
-    let Ok(font) = picture_font() else { return };
-    for glyph in place_letters(&font, text, em as f32, baseline as f32).0 {
+) -> u32 {
+    let Ok(font) = picture_font() else { return 0 };
+    let (glyphs, width) = place_letters(&font, text, em as f32, baseline as f32);
+    for glyph in glyphs {
         let Some(outline) = font.outline_glyph(glyph) else { continue };
         let corner = outline.px_bounds().min;
         outline.draw(|dx, dy, coverage| {
@@ -63,6 +64,7 @@ pub fn draw_text(
             blend(left + x, y, coverage.clamp(0.0, 1.0).into());
         });
     }
+    whole(width)
 }
 
 fn whole(length: f32) -> u32 {

@@ -62,7 +62,7 @@ pub(super) struct FfmpegLog {
     refusal: Option<String>,
 }
 
-/// How far ffmpeg has come.
+/// The progress of ffmpeg.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum DecodingStage {
     /// It looks at all streams.

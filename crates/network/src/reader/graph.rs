@@ -126,11 +126,11 @@ fn tensor_outputs(outputs: &[(String, GraphValue)]) -> Vec<(String, usize)> {
     outputs.iter().filter_map(value).collect()
 }
 
-/// What to do about an operator that selects detections.
+/// The advice on an operator that selects detections.
 const SELECTION_ADVICE: &str = "; in most models it selects detections behind the network, so export without it \
     (Ultralytics: `nms=False` and `end2end=False`; other YOLO: without `--end2end`), or cut the model before it with \
     `onnx.utils.extract_model`";
-/// What to do about a function of the model.
+/// The advice on a function of the model.
 const FUNCTION_ADVICE: &str = ", because it is a function of the model itself; replace functions by their nodes: \
     `onnx.save(onnx.inliner.inline_local_functions(onnx.load(\"MODEL\")), \"INLINED\")`";
 

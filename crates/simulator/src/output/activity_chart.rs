@@ -78,13 +78,9 @@ impl ActivityChart {
         let scale = *Self::SCALES.iter().find(fits).unwrap_or(&1000);
         canvas.fill_rectangle(0, bottom - height, canvas.width, 1, LINE_COLOUR);
         canvas.fill_rectangle(0, bottom - height / 2, canvas.width, 1, LINE_COLOUR);
-        let count = u32::try_from(self.bars.len()).unwrap_or(u32::MAX).max(1);
-        let edge = |index: usize| {
-            u32::try_from(u64::from(canvas.width) * index as u64 / u64::from(count)).unwrap_or(0)
-        };
-        let edges: Vec<(u32, u32)> =
-            (0..self.bars.len()).map(|index| (edge(index), edge(index + 1))).collect();
-        for ((index, &active), (left, right)) in self.bars.iter().enumerate().zip(edges) {
+        let count = u32::try_from(self.bars.len()).expect("a bar has a pixel or more");
+        for (place, (index, &active)) in (0..).zip(self.bars.iter().enumerate()) {
+            let [left, right] = [place, place + 1].map(|place| canvas.width * place / count);
             let bar = active * 1000 * u64::from(height) / (scale * whole(index));
             // A bar with any active region is visible.
             let bar = u32::try_from(bar).unwrap_or(height).min(height).max(u32::from(active > 0));

@@ -137,10 +137,8 @@ impl PictureCanvas {
     /// it ends.
     pub(super) fn draw_text(&mut self, left: u32, top: u32, dot: u32, text: &str) -> u32 {
         let place = (left, top + TEXT_DOTS * dot);
-        lettering::draw_text(text, EM_DOTS * dot, place, |x, y, share| {
-            self.blend(x, y, TEXT, share);
-        });
-        left + text_width(text, dot)
+        let blend = |x, y, share| self.blend(x, y, TEXT, share);
+        left + lettering::draw_text(text, EM_DOTS * dot, place, blend)
     }
 }
 

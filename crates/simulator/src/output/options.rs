@@ -7,7 +7,7 @@ use foveate_timed::SinkPattern;
 /// The style of an overlay.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum OverlayStyle {
-    /// What is sent is bright, what is not sent is dark, and means are tinted.
+    /// Sent regions are bright, regions that are not sent are dark, and means are tinted.
     #[default]
     Sent,
     /// The frame is dimmed, with a colour for each of the decisions about a region, and outlines.

@@ -27,7 +27,7 @@ fn pictures(folder: &Path, name: &str) -> Vec<RgbImage> {
     (0..5).map(picture).collect()
 }
 
-/// What is sent is as bright as the frame, what is not sent is dark, and means are tinted.
+/// Sent regions are as bright as the frame, regions that are not sent are dark, and means are tinted.
 #[test]
 fn the_overlay_shows_what_is_sent() {
     let folder = tempfile::tempdir().unwrap();
