@@ -149,7 +149,8 @@ def fidelity(
     Returns
     -------
     Fidelity
-        A dict: ``srs_flips``, ``trs_flips``, ``missed``, ``false_alarms`` (shares of the area), ``psnr_ideal`` in dB (None if
+        A dict: ``action_flips``, ``srs_flips``, ``trs_flips`` (shares of the area), ``missed``, ``false_alarms`` (shares of the active
+        area, without the first frame of every clip), ``stale_regions`` (share of the relevant regions), ``psnr_ideal`` in dB (None if
         identical), ``ssim_ideal``, ``scores``, ``staleness`` and more.
     """
     values, problem = _foveate.fidelity(

@@ -89,7 +89,7 @@ pub(crate) enum Command {
     Explain(ExplainArgs),
     Analyze(AnalyzeArgs),
     Explore(ExploreArgs),
-    Fit(FitArgs),
+    Fit(Box<FitArgs>),
     Infer(InferArgs),
     Link(LinkArgs),
     Stress(StressArgs),

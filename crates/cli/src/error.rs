@@ -194,6 +194,8 @@ fn explore_code(error: &ExploreError) -> u8 {
         ExploreError::Silicon(error) => silicon_code(error),
         ExploreError::Energy(error) => energy_code(error),
         ExploreError::Link(error) => link_code(error),
+        // The input is valid; the answer is that it does not decide.
+        ExploreError::Undecided { .. } => 1,
         _ => INPUT_CODE,
     }
 }

@@ -19,6 +19,16 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ExploreError {
+    /// The ideal camera is active too rarely for a limit on missed regions.
+    #[error(
+        "undecided: the ideal camera has {} active regions in the searched frames and {} in the frames that confirm, without the first frame of every clip, and --max-missed needs at least 49 in each; use more frames or other thresholds, or give --max-missed 100%",
+        regions[0],
+        regions[1]
+    )]
+    Undecided {
+        /// The numbers of active regions in both parts.
+        regions: [f64; 2],
+    },
     /// The file of the space is not valid.
     #[error("the space is not valid: {problem}")]
     Space {

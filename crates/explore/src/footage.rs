@@ -6,13 +6,11 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use foveate_camera::{Camera, CameraConfig};
-use foveate_fidelity::{ErrorTally, FidelityFigures};
 use foveate_footage::InputOptions;
 use foveate_playback::{ClipReading, RunClips, RunHooks, RunMonitor, RunProgress};
 
 use crate::ExploreError;
 use crate::measure::{CameraMeasurement, MeasuredClip};
-use crate::objects::ObjectCounts;
 use crate::progress::measuring_progress;
 use crate::store::{MeasurementStore, clip_identity, measurement_key};
 
@@ -129,37 +127,28 @@ impl<'a> ExplorationFootage<'a> {
         self.ideal.frame.pixel_bits
     }
 
-    /// Returns the figures of every camera over the first halves of all clips, and the counts of
-    /// objects. `halves` has the number of frames of each first half. `before` is the number of
-    /// cameras that were done before, for progress.
-    pub(crate) fn measure_first_halves(
+    /// Returns the measurement of every camera in every part of all clips. `parts` gives the parts of
+    /// a clip by its number. `before` is the number of cameras that were done before, for progress.
+    pub(crate) fn measure_clip_parts(
         &self,
         cameras: &[Camera],
-        halves: &[(u64, u64)],
+        parts: impl Fn(usize) -> Vec<Range<u64>>,
         before: usize,
-    ) -> Result<Vec<(FidelityFigures, ObjectCounts)>, ExploreError> {
+    ) -> Result<Vec<Vec<CameraMeasurement>>, ExploreError> {
         let mut found = Vec::new();
         let all = before + cameras.len();
         for some in cameras.chunks(CAMERAS_PER_UNIT) {
-            let mut sums: Vec<Option<(ErrorTally, ObjectCounts)>> = vec![None; some.len()];
+            let mut sums = vec![vec![None; parts(0).len()]; some.len()];
             let done = before + found.len();
             let stage = |_| measuring_progress(done, all);
-            for (clip, &(half, _)) in halves.iter().enumerate() {
-                let measured =
-                    self.measure_parts(clip, some, std::slice::from_ref(&(0..half)), &stage)?;
-                for (sum, part) in sums.iter_mut().zip(measured.into_iter().flatten()) {
-                    match sum {
-                        Some((tally, objects)) => {
-                            tally.merge(&part.tally);
-                            objects.merge(part.objects);
-                        }
-                        None => *sum = Some((part.tally, part.objects)),
-                    }
+            for clip in 0..self.clips.clips().len() {
+                let measured = self.measure_parts(clip, some, &parts(clip), &stage)?;
+                let all_sums = sums.iter_mut().flatten();
+                for (sum, part) in all_sums.zip(measured.into_iter().flatten()) {
+                    CameraMeasurement::merge(sum, Some(part));
                 }
             }
-            let figures =
-                |(tally, objects): &(ErrorTally, ObjectCounts)| (tally.figures(), *objects);
-            found.extend(sums.iter().flatten().map(figures));
+            found.extend(sums.into_iter().map(|parts| parts.into_iter().flatten().collect()));
         }
         Ok(found)
     }

@@ -8,7 +8,7 @@ use std::thread;
 
 use foveate_camera::{Camera, CameraConfig};
 use foveate_engine::Engine;
-use foveate_fidelity::{ErrorTally, Fidelity};
+use foveate_fidelity::{CandidateFrame, DecisionAreas, ErrorTally, Fidelity, FrameOrder};
 use foveate_footage::SourceKind;
 use foveate_frame::Rect;
 use foveate_ideal::{IdealCamera, IdealOutcome};
@@ -28,11 +28,29 @@ const FRAMES_AHEAD: usize = 2;
 pub(crate) struct CameraMeasurement {
     /// The errors against the ideal camera.
     pub(crate) tally: ErrorTally,
+    /// The areas of the decisions of every frame; not stored.
+    #[serde(skip)]
+    pub(crate) frames: Vec<DecisionAreas>,
     /// The counts of objects, if there are boxes.
     #[serde(default)]
     pub(crate) objects: ObjectCounts,
     /// The reason why the clip ended early, if it did.
     pub(crate) problem: Option<String>,
+}
+
+impl CameraMeasurement {
+    /// Adds the measurement of the same part of the next clip to a sum.
+    pub(crate) fn merge(sum: &mut Option<Self>, next: Option<Self>) {
+        match (sum.as_mut(), next) {
+            (Some(sum), Some(next)) => {
+                sum.tally.merge(&next.tally);
+                sum.frames.extend(next.frames);
+                sum.objects.merge(next.objects);
+            }
+            (None, next) => *sum = next,
+            (Some(_), None) => {}
+        }
+    }
 }
 
 /// A clip and the ideal camera that others are compared with on it.
@@ -60,7 +78,10 @@ struct MeasuredCamera {
     engine: Engine,
     /// The errors of the camera, for each part.
     fidelity: Vec<Fidelity>,
+    frames: Vec<Vec<DecisionAreas>>,
     objects: Vec<ObjectCounts>,
+    /// The denoised frame, and the denoised pixels of a region.
+    denoised: (Vec<u16>, Vec<u16>),
 }
 
 impl MeasuredClip<'_> {
@@ -88,9 +109,11 @@ impl MeasuredClip<'_> {
             self.monitor.check()?;
         }
         let measured = |candidate: MeasuredCamera| {
-            let parts = candidate.fidelity.into_iter().zip(candidate.objects);
-            let one = |(fidelity, objects): (Fidelity, ObjectCounts)| CameraMeasurement {
-                tally: fidelity.tally().clone(),
+            let MeasuredCamera { fidelity, frames, objects, .. } = candidate;
+            let parts = fidelity.into_iter().zip(frames).zip(objects);
+            let one = |((fidelity, frames), objects): ((Fidelity, _), _)| CameraMeasurement {
+                tally: fidelity.into_tally(),
+                frames,
                 objects,
                 problem: problem.clone(),
             };
@@ -156,7 +179,9 @@ impl MeasuredCamera {
         Ok(Self {
             engine: Engine::new(camera),
             fidelity: fidelity.collect::<Result<_, _>>()?,
+            frames: vec![Vec::new(); parts],
             objects: vec![ObjectCounts::default(); parts],
+            denoised: (vec![0; (camera.width() * camera.height()) as usize], Vec::new()),
             camera: camera.clone(),
         })
     }
@@ -167,18 +192,44 @@ impl MeasuredCamera {
         frames: &FrameDepths<'_>,
         part: usize,
     ) -> Result<(), ExploreError> {
-        if ideal_frame.frame.kind == SourceKind::Set {
+        let IdealFrame { frame, ideal, objects } = ideal_frame;
+        if frame.kind == SourceKind::Set {
             self.fidelity[part].next_clip();
         }
         frames.show_to(&mut self.engine)?;
+        self.read_denoised();
         let (outcome, screen) = (self.engine.outcome(), self.engine.rendered());
-        self.objects[part].add_frame(&self.camera, &ideal_frame.objects, &outcome.active);
-        Ok(self.fidelity[part].add(
-            &ideal_frame.frame.frame,
-            &ideal_frame.ideal,
-            outcome,
-            screen,
-        )?)
+        self.objects[part].add_frame(&self.camera, objects, &outcome.active);
+        let candidate = CandidateFrame { outcome, screen, denoised: &self.denoised.0 };
+        let order = frame_order(frame);
+        self.frames[part].push(self.fidelity[part].add(&frame.frame, ideal, candidate, order)?);
+        Ok(())
+    }
+
+    /// Reads the denoised frame of the engine, without padding.
+    fn read_denoised(&mut self) {
+        let (plane, pixels) = &mut self.denoised;
+        let side = self.camera.region_size() as usize;
+        let (width, columns) = (self.camera.width() as usize, self.camera.columns());
+        for region in 0..self.camera.regions() {
+            pixels.clear();
+            self.engine.denoised_region(region, pixels);
+            let (left, top) =
+                ((region % columns) as usize * side, (region / columns) as usize * side);
+            let shown = side.min(width - left);
+            let rows = plane.chunks_exact_mut(width).skip(top);
+            for (row, pixels) in rows.zip(pixels.chunks_exact(side)) {
+                row[left..left + shown].copy_from_slice(&pixels[..shown]);
+            }
+        }
+    }
+}
+
+/// Returns the order of a frame in its clip; all images of a data set count.
+pub(crate) fn frame_order(frame: &PlayedFrame) -> FrameOrder {
+    match frame.kind {
+        SourceKind::Clip if frame.number == 0 => FrameOrder::First,
+        SourceKind::Clip | SourceKind::Set => FrameOrder::Later,
     }
 }
 

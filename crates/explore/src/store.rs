@@ -23,7 +23,7 @@ use crate::ExploreError;
 
 /// The version of the figures. It grows if figures change their meaning, so that older figures are
 /// not used.
-const FIGURES_VERSION: u32 = 4;
+const FIGURES_VERSION: u32 = 5;
 /// The version of the loads on a link, which grows in the same way.
 const LOAD_VERSION: u32 = 1;
 /// The version of the energies in the cells of a process, which grows in the same way.

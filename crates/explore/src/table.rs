@@ -107,6 +107,7 @@ pub(crate) fn error_cells(figures: &FidelityFigures) -> NamedCells {
         ("ssim_ideal", real(figures.ssim_ideal)),
         ("psnr_input", TableCell::Real(figures.psnr_input)),
         ("ssim_input", real(figures.ssim_input)),
+        ("stale_regions", real(figures.stale_regions)),
         ("stale_max", real(figures.staleness.max)),
         ("stale_mean", real(figures.staleness.mean)),
         ("stale_share", real(figures.staleness.share)),

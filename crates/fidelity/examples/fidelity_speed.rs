@@ -7,7 +7,7 @@ use std::time::Instant;
 
 use foveate_camera::CameraConfig;
 use foveate_engine::Engine;
-use foveate_fidelity::Fidelity;
+use foveate_fidelity::{CandidateFrame, Fidelity, FrameOrder};
 use foveate_frame::ByteFrame;
 use foveate_ideal::IdealCamera;
 use foveate_scenes::{Scene, SceneParameters};
@@ -34,9 +34,15 @@ fn main() {
                 let input = ByteFrame::from(&own);
                 let ideal_outcome = reference.step(&input).unwrap();
                 let outcome = engine.step(&other).unwrap().clone();
+                let denoised = engine.rendered().to_words();
                 for _ in 0..10 {
                     let start = Instant::now();
-                    fidelity.add(&input, ideal_outcome, &outcome, engine.rendered()).unwrap();
+                    let candidate = CandidateFrame {
+                        outcome: &outcome,
+                        screen: engine.rendered(),
+                        denoised: &denoised,
+                    };
+                    fidelity.add(&input, ideal_outcome, candidate, FrameOrder::Later).unwrap();
                     best = best.min(start.elapsed().as_secs_f64());
                 }
             }

@@ -13,8 +13,10 @@ pub(crate) struct FrameConverter<T> {
     denoised: Vec<T>,
     rendered: Vec<T>,
     screen: Vec<T>,
-    /// The pixel of the ideal for every pixel of the candidate; empty if both have the same depth.
+    own_denoised: Vec<T>,
+    /// The pixel of the ideal for every pixel of the candidate.
     depth_table: Vec<T>,
+    has_same_depth: bool,
 }
 
 /// The pixels of one frame, in row-major order.
@@ -27,17 +29,23 @@ pub(crate) struct ComparedFrames<'p, T> {
     pub(crate) rendered: &'p [T],
     /// The candidate's screen.
     pub(crate) screen: &'p [T],
+    /// The denoised frame of the candidate.
+    pub(crate) own_denoised: &'p [T],
 }
 
 impl<T: PixelSample> FrameConverter<T> {
     pub(crate) fn new(ideal: &Camera, candidate: &Camera) -> Self {
         let (from, to) = (candidate.pixel_bits(), ideal.pixel_bits());
         let values = 0..=u16::try_from(candidate.pixel_max()).expect("a pixel has at most 16 bits");
-        let depths = match from == to {
-            true => Vec::new(),
-            false => values.map(|value| T::from_word(convert_depth(value, from, to))).collect(),
-        };
-        Self { denoised: Vec::new(), rendered: Vec::new(), screen: Vec::new(), depth_table: depths }
+        let depth_table = values.map(|value| T::from_word(convert_depth(value, from, to)));
+        Self {
+            denoised: Vec::new(),
+            rendered: Vec::new(),
+            screen: Vec::new(),
+            own_denoised: Vec::new(),
+            depth_table: depth_table.collect(),
+            has_same_depth: from == to,
+        }
     }
 
     /// Converts the frames of one step; returns `None` if a plane has the wrong type.
@@ -45,12 +53,13 @@ impl<T: PixelSample> FrameConverter<T> {
         &'p mut self,
         input: FramePixels<'p>,
         ideal: &IdealOutcome,
-        screen: FramePixels<'p>,
+        (screen, own_denoised): (FramePixels<'p>, &[u16]),
     ) -> Option<ComparedFrames<'p, T>> {
         let input = T::plane_pixels(input)?;
         convert_grey_levels(&ideal.denoised, &mut self.denoised);
         convert_grey_levels(&ideal.rendered, &mut self.rendered);
-        let screen = if self.depth_table.is_empty() {
+        convert_screen(own_denoised, &self.depth_table, &mut self.own_denoised);
+        let screen = if self.has_same_depth {
             T::plane_pixels(screen)?
         } else {
             match screen {
@@ -63,7 +72,8 @@ impl<T: PixelSample> FrameConverter<T> {
             }
             &self.screen
         };
-        Some(ComparedFrames { input, denoised: &self.denoised, rendered: &self.rendered, screen })
+        let Self { denoised, rendered, own_denoised, .. } = self;
+        Some(ComparedFrames { input, denoised, rendered, screen, own_denoised })
     }
 }
 

@@ -6,7 +6,7 @@ use foveate_engine::FrameOutcome;
 use foveate_frame::{ByteFrame, FramePixels};
 use foveate_ideal::IdealOutcome;
 
-use crate::areas::{NO_AREAS, decision_state};
+use crate::areas::{DecisionAreas, DecisionState, FrameOrder, NO_AREAS};
 use crate::converter::FrameConverter;
 use crate::overlap::GridCells;
 use crate::sample::PixelSample;
@@ -23,9 +23,20 @@ pub struct Fidelity {
     cells: GridCells,
     pairs: Vec<ScorePair>,
     /// The decisions of the ideal and of the candidate.
-    states: [Vec<u8>; 2],
+    states: [Vec<DecisionState>; 2],
     pixel_comparison: PixelComparison,
     tally: ErrorTally,
+}
+
+/// The results of a candidate for one frame.
+#[derive(Clone, Copy, Debug)]
+pub struct CandidateFrame<'a> {
+    /// The outcome of the candidate's engine.
+    pub outcome: &'a FrameOutcome,
+    /// The candidate's screen after the frame, at its depth.
+    pub screen: FramePixels<'a>,
+    /// The candidate's denoised frame without padding, at its depth, in row-major order.
+    pub denoised: &'a [u16],
 }
 
 /// The comparison of pixels, in the type that the ideal's pixels need.
@@ -40,6 +51,7 @@ struct TypedPixelComparison<T: PixelSample> {
     planes: FrameConverter<T>,
     comparison: ScreenComparison<T>,
     staleness: StalenessTracker<T>,
+    own_staleness: StalenessTracker<T>,
 }
 
 impl Fidelity {
@@ -77,8 +89,8 @@ impl Fidelity {
         })
     }
 
-    /// Adds one frame: the input of the ideal camera, the ideal camera's outcome, the outcome of
-    /// the candidate's engine, and the candidate's screen after it.
+    /// Adds one frame: the input of the ideal camera, the ideal camera's outcome, and the results of
+    /// the candidate. Returns the areas of its decisions, which have been added, too.
     ///
     /// # Errors
     /// Fails if something does not have the size or depth of its camera; nothing has been added
@@ -87,30 +99,30 @@ impl Fidelity {
         &mut self,
         input: &ByteFrame,
         ideal: &IdealOutcome,
-        candidate: &FrameOutcome,
-        screen: FramePixels<'_>,
-    ) -> Result<(), FidelityError> {
-        self.check_inputs(input, ideal, candidate, screen)?;
+        candidate: CandidateFrame<'_>,
+        order: FrameOrder,
+    ) -> Result<DecisionAreas, FidelityError> {
+        self.check_inputs(input, ideal, candidate)?;
         let Self { pairs, pixel_comparison: comparison, tally, .. } = self;
         for (pair, tally) in pairs.iter().zip(&mut tally.scores) {
-            pair.add_frame(ideal, candidate, tally);
+            pair.add_frame(ideal, candidate.outcome, tally);
         }
         match comparison {
-            PixelComparison::Bytes(typed) => typed.compare_frame(input, ideal, screen, tally),
-            PixelComparison::Words(typed) => typed.compare_frame(input, ideal, screen, tally),
+            PixelComparison::Bytes(typed) => typed.compare_frame(input, ideal, candidate, tally),
+            PixelComparison::Words(typed) => typed.compare_frame(input, ideal, candidate, tally),
         }
-        self.add_decisions(ideal, candidate);
+        let areas = self.decision_areas(ideal, candidate.outcome, order);
+        self.tally.areas.add(&areas);
         self.tally.frames += 1;
-        self.tally.pixels += u64::from(self.ideal.width()) * u64::from(self.ideal.height());
-        Ok(())
+        Ok(areas)
     }
 
     /// Declares that the next frame is the first of another clip with frames of this size, so that
     /// no region has been stale before it.
     pub fn next_clip(&mut self) {
         match &mut self.pixel_comparison {
-            PixelComparison::Bytes(typed) => typed.staleness.end_runs(),
-            PixelComparison::Words(typed) => typed.staleness.end_runs(),
+            PixelComparison::Bytes(typed) => typed.end_runs(),
+            PixelComparison::Words(typed) => typed.end_runs(),
         }
     }
 
@@ -126,30 +138,33 @@ impl Fidelity {
         self.tally
     }
 
-    fn add_decisions(&mut self, ideal: &IdealOutcome, candidate: &FrameOutcome) {
-        let Self { cells, states: [ideal_states, candidate_states], tally, .. } = self;
+    fn decision_areas(
+        &mut self,
+        ideal: &IdealOutcome,
+        candidate: &FrameOutcome,
+        order: FrameOrder,
+    ) -> DecisionAreas {
+        let Self { cells, states: [ideal_states, candidate_states], .. } = self;
         ideal_states.clear();
         ideal_states.extend(
             (0..ideal.srs.len())
-                .map(|at| decision_state(ideal.srs[at], ideal.trs[at], ideal.actions[at])),
+                .map(|at| DecisionState::new(ideal.srs[at], ideal.trs[at], ideal.actions[at])),
         );
         candidate_states.clear();
-        candidate_states.extend(
-            (0..candidate.srs.len()).map(|at| {
-                decision_state(candidate.srs[at], candidate.trs[at], candidate.actions[at])
-            }),
-        );
-        let mut table = NO_AREAS;
+        candidate_states.extend((0..candidate.srs.len()).map(|at| {
+            DecisionState::new(candidate.srs[at], candidate.trs[at], candidate.actions[at])
+        }));
+        let (mut table, mut areas) = (NO_AREAS, DecisionAreas::default());
         cells.add_areas(ideal_states, candidate_states, &mut table);
-        tally.areas.add_table(&table);
+        areas.add_table(&table, order);
+        areas
     }
 
     fn check_inputs(
         &self,
         input: &ByteFrame,
         ideal: &IdealOutcome,
-        candidate: &FrameOutcome,
-        screen: FramePixels<'_>,
+        CandidateFrame { outcome: candidate, screen, denoised }: CandidateFrame<'_>,
     ) -> Result<(), FidelityError> {
         let expected = (self.ideal.width(), self.ideal.height(), self.ideal.pixel_bits());
         let given = (input.width(), input.height(), input.bits());
@@ -189,6 +204,7 @@ impl Fidelity {
         check_length("candidate, changed pixels", candidate.temporal_count.len(), regions)?;
         check_length("candidate, features", candidate.scores.len(), camera.features().len())?;
         check_lengths("candidate, scores", candidate.scores.iter().map(Vec::len), regions)?;
+        check_length("candidate, denoised pixels", denoised.len(), pixels)?;
         check_length("candidate, pixels of the screen", len, pixels)
     }
 }
@@ -215,19 +231,25 @@ impl<T: PixelSample> TypedPixelComparison<T> {
             planes: FrameConverter::new(ideal, candidate),
             comparison: ScreenComparison::new(width, height, ideal.pixel_max()),
             staleness: StalenessTracker::new(ideal),
+            own_staleness: StalenessTracker::new(ideal),
         }
+    }
+
+    fn end_runs(&mut self) {
+        self.staleness.end_runs();
+        self.own_staleness.end_runs();
     }
 
     fn compare_frame(
         &mut self,
         input: &ByteFrame,
         ideal: &IdealOutcome,
-        screen: FramePixels<'_>,
+        CandidateFrame { screen, denoised, .. }: CandidateFrame<'_>,
         tally: &mut ErrorTally,
     ) {
         // The types have been checked, so this always succeeds.
-        let Some(compared_frames) = self.planes.convert(input.borrowed_pixels(), ideal, screen)
-        else {
+        let pixels = input.borrowed_pixels();
+        let Some(compared_frames) = self.planes.convert(pixels, ideal, (screen, denoised)) else {
             return;
         };
         let [to_ideal, to_input] = self.comparison.compare(compared_frames);
@@ -238,6 +260,12 @@ impl<T: PixelSample> TypedPixelComparison<T> {
             compared_frames.denoised,
             compared_frames.screen,
             &mut tally.stale,
+        );
+        self.own_staleness.add_frame(
+            &ideal.srs,
+            compared_frames.own_denoised,
+            compared_frames.screen,
+            &mut tally.stale_to_own,
         );
     }
 }

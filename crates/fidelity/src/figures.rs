@@ -23,11 +23,11 @@ pub struct FidelityFigures {
     pub trs_flips: f64,
     /// The share of the area whose region has another action on the screen.
     pub action_flips: f64,
-    /// The share of the ideal's active area that is not active in the candidate; 0 without such an
-    /// area.
+    /// The share of the ideal's active area that is not active in the candidate, without the first
+    /// frame of every clip, in which every region has changed; 0 without such an area.
     pub missed: f64,
-    /// The share of the candidate's active area that is not active in the ideal; 0 without such an
-    /// area.
+    /// The share of the candidate's active area that is not active in the ideal, without the first
+    /// frame of every clip; 0 without such an area.
     pub false_alarms: f64,
     /// The intersection over union of both active areas, over all frames; 1 if both are empty.
     pub active_iou: f64,
@@ -54,6 +54,10 @@ pub struct FidelityFigures {
     pub ssim_input: f64,
     /// The staleness of the candidate's screen.
     pub staleness: Staleness,
+    /// The share of the relevant regions (times frames) that are stale, 0..=1, as in [`Staleness`], but
+    /// compared with the candidate's own denoised frame: what the screen has lost since it was sent,
+    /// without the errors of fewer bits and of the filter.
+    pub stale_regions: f64,
 }
 
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde gives a reference")]
@@ -102,20 +106,21 @@ impl ErrorTally {
     /// Returns the figures of the tally.
     #[must_use]
     pub fn figures(&self) -> FidelityFigures {
-        let Self { frames, pixels, areas, stale: staleness, .. } = self;
+        let Self { frames, areas, stale: staleness, .. } = self;
+        let (pixels, active) = (&areas.all, &areas.active);
         let share = |area: u64| ratio(area, *pixels, 0.0);
-        let union = areas.ideal + areas.candidate - areas.both.min(areas.ideal);
+        let union = active.ideal + active.candidate - active.both.min(active.ideal);
         FidelityFigures {
             frames: *frames,
             scores: self.scores.iter().map(score_error).collect(),
             srs_flips: share(areas.srs),
             trs_flips: share(areas.trs),
-            action_flips: share(areas.action),
-            missed: ratio(areas.ideal.saturating_sub(areas.both), areas.ideal, 0.0),
-            false_alarms: ratio(areas.candidate.saturating_sub(areas.both), areas.candidate, 0.0),
-            active_iou: ratio(areas.both, union, 1.0),
-            active: share(areas.candidate),
-            ideal_active: share(areas.ideal),
+            action_flips: areas.flips(),
+            missed: areas.missed(),
+            false_alarms: areas.false_alarms(),
+            active_iou: ratio(active.both, union, 1.0),
+            active: share(active.candidate),
+            ideal_active: share(active.ideal),
             summarized: share(areas.summarized),
             psnr_ideal: self.to_ideal.psnr(*pixels, self.peak),
             psnr_input: self.to_input.psnr(*pixels, self.peak),
@@ -125,8 +130,9 @@ impl ErrorTally {
                 max: f64::from(staleness.max),
                 mean: ratio(staleness.sum, staleness.pixels, 0.0),
                 longest: staleness.longest,
-                share: ratio(staleness.stale, staleness.relevant, 0.0),
+                share: staleness.share(),
             },
+            stale_regions: self.stale_to_own.share(),
         }
     }
 }

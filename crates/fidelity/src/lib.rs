@@ -22,9 +22,15 @@ mod similarity;
 mod ssim;
 mod staleness;
 mod tally;
+mod threshold_table;
 
+pub use areas::{ActiveAreas, DecisionAreas, DecisionState, FrameOrder};
 pub use error::FidelityError;
-pub use fidelity::Fidelity;
+pub use fidelity::{CandidateFrame, Fidelity};
 pub use figures::{FidelityFigures, ScoreError, Staleness};
+pub use overlap::GridCells;
 pub use similarity::FrameSimilarity;
 pub use tally::ErrorTally;
+pub use threshold_table::{
+    ChosenSteps, ComparedMinima, DecisionLimits, MinimumSteps, ThresholdTable,
+};

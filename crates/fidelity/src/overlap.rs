@@ -4,7 +4,7 @@
 
 use foveate_camera::Camera;
 
-use crate::areas::{StateAreas, state_pair_index};
+use crate::areas::{DecisionState, StateAreas, state_pair_index};
 
 /// The pixels along one axis that lie in one region of each grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,7 +16,7 @@ struct GridStrip {
 
 /// The cells of a frame, as strips along both axes. Padding belongs to no cell.
 #[derive(Clone, Debug)]
-pub(crate) struct GridCells {
+pub struct GridCells {
     column_strips: Vec<GridStrip>,
     row_strips: Vec<GridStrip>,
     ideal_columns: usize,
@@ -24,7 +24,9 @@ pub(crate) struct GridCells {
 }
 
 impl GridCells {
-    pub(crate) fn new(ideal: &Camera, candidate: &Camera) -> Self {
+    /// Creates the cells of two cameras whose frames have the same size.
+    #[must_use]
+    pub fn new(ideal: &Camera, candidate: &Camera) -> Self {
         let sides = (ideal.region_size(), candidate.region_size());
         Self {
             column_strips: strips(ideal.width(), sides),
@@ -34,18 +36,31 @@ impl GridCells {
         }
     }
 
-    /// Adds the area of every combination of states; both lists have one state per region, in
-    /// row-major order.
-    pub(crate) fn add_areas(&self, ideal: &[u8], candidate: &[u8], table: &mut StateAreas) {
+    /// Calls `use_cell` with the number of the ideal's region, the number of the candidate's region
+    /// and the pixels of every cell.
+    #[inline(always)]
+    pub fn for_each(&self, mut use_cell: impl FnMut(usize, usize, u64)) {
         for row in &self.row_strips {
-            let ideal = &ideal[row.ideal * self.ideal_columns..][..self.ideal_columns];
-            let candidate =
-                &candidate[row.candidate * self.candidate_columns..][..self.candidate_columns];
+            let ideal = row.ideal * self.ideal_columns;
+            let candidate = row.candidate * self.candidate_columns;
             for column in &self.column_strips {
-                let at = state_pair_index(ideal[column.ideal], candidate[column.candidate]);
-                table[at] += row.pixels * column.pixels;
+                let pixels = row.pixels * column.pixels;
+                use_cell(ideal + column.ideal, candidate + column.candidate, pixels);
             }
         }
+    }
+
+    /// Adds the area of every combination of states; both lists have one state per region, in
+    /// row-major order.
+    pub(crate) fn add_areas(
+        &self,
+        ideal: &[DecisionState],
+        candidate: &[DecisionState],
+        table: &mut StateAreas,
+    ) {
+        self.for_each(|ideal_region, region, pixels| {
+            table[state_pair_index(ideal[ideal_region], candidate[region])] += pixels;
+        });
     }
 }
 

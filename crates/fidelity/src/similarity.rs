@@ -38,6 +38,7 @@ impl FrameSimilarity {
             denoised: original,
             rendered: original,
             screen: seen,
+            own_denoised: original,
         };
         let [_, to_input] = self.comparison.compare(compared_frames);
         self.tally.add(&to_input);

@@ -4,6 +4,7 @@
 use foveate_camera::Camera;
 use serde::{Deserialize, Serialize};
 
+use crate::fixed_point::ratio;
 use crate::sample::PixelSample;
 
 /// The staleness, summed over frames.
@@ -31,6 +32,11 @@ impl StalenessTally {
         self.relevant += other.relevant;
         self.stale += other.stale;
         self.longest = self.longest.max(other.longest);
+    }
+
+    /// Returns the share of the relevant regions that are stale; 0 without relevant regions.
+    pub(crate) fn share(&self) -> f64 {
+        ratio(self.stale, self.relevant, 0.0)
     }
 }
 

@@ -14,15 +14,16 @@ use crate::staleness::StalenessTally;
 #[serde(deny_unknown_fields)]
 pub struct ErrorTally {
     pub(crate) frames: u64,
-    /// The number of pixels of all frames.
-    pub(crate) pixels: u64,
     /// The largest possible pixel of the ideal camera.
     pub(crate) peak: u32,
     pub(crate) scores: Vec<ScoreTally>,
     pub(crate) areas: DecisionAreas,
     pub(crate) to_ideal: ScreenTally,
     pub(crate) to_input: ScreenTally,
+    /// The difference between the candidate's screen and the ideal's denoised frame.
     pub(crate) stale: StalenessTally,
+    /// The difference between the candidate's screen and its own denoised frame.
+    pub(crate) stale_to_own: StalenessTally,
 }
 
 impl ErrorTally {
@@ -33,7 +34,6 @@ impl ErrorTally {
     /// then has little meaning.
     pub fn merge(&mut self, other: &Self) {
         self.frames += other.frames;
-        self.pixels += other.pixels;
         self.peak = self.peak.max(other.peak);
         for score in &other.scores {
             match self.scores.iter_mut().find(|tally| tally.feature == score.feature) {
@@ -45,6 +45,7 @@ impl ErrorTally {
         self.to_ideal.add(&other.to_ideal);
         self.to_input.add(&other.to_input);
         self.stale.add(&other.stale);
+        self.stale_to_own.add(&other.stale_to_own);
     }
 
     /// Returns the number of frames that were added.

@@ -162,9 +162,14 @@ pub(crate) struct ConstraintArgs {
     /// unless --network is given
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     pub(crate) max_flips: Option<f64>,
-    /// Largest share of the ideal camera's active regions that the design may miss
+    /// Largest share of the ideal camera's active regions that the design may miss, without the first
+    /// frame of every clip; 10% unless --network is given
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     pub(crate) max_missed: Option<f64>,
+    /// Largest share of the design's active regions that are not active in the ideal camera, without
+    /// the first frame of every clip; 10% unless --network is given
+    #[arg(long, value_name = "PERCENT", value_parser = percent)]
+    pub(crate) max_false_alarms: Option<f64>,
     /// Smallest PSNR of the rendered frames against those of the ideal camera, in dB
     #[arg(long, value_name = "DB", value_parser = decibels)]
     pub(crate) min_psnr: Option<f64>,
@@ -200,13 +205,14 @@ pub(crate) struct ConstraintArgs {
 }
 
 impl ConstraintArgs {
-    /// Returns the limits. With a network the configuration is only a start, so that flips have no
+    /// Returns the limits. With a network the configuration is only a start, so that decisions have no
     /// limit unless one is given.
     pub(crate) fn constraints(&self, with_network: bool) -> Constraints {
-        const FLIPS: f64 = 0.01;
+        let by_default = |share: f64| (!with_network).then_some(share);
         Constraints {
-            max_flips: self.max_flips.or((!with_network).then_some(FLIPS)),
-            max_missed: self.max_missed,
+            max_flips: self.max_flips.or(by_default(0.01)),
+            max_missed: self.max_missed.or(by_default(0.1)),
+            max_false_alarms: self.max_false_alarms.or(by_default(0.1)),
             min_psnr: self.min_psnr,
             max_stale_frames: self.max_stale_frames,
             max_bytes: self.max_bytes.map(f64::from),

@@ -252,8 +252,11 @@ fn figures_text(figures: &FidelityFigures) -> String {
     let psnr =
         figures.psnr_ideal.map_or_else(|| "identical".to_owned(), |psnr| format!("{psnr:.1} dB"));
     format!(
-        "{:.2} % flips, {:.1} % active (ideal {:.1} %), IoU {:.3}, PSNR {psnr} and SSIM {:.3} to the ideal screen",
+        "{:.2} % flips, {:.2} % missed, {:.2} % false alarms, {:.2} % of the relevant regions stale; {:.1} % active (ideal {:.1} %), IoU {:.3}, PSNR {psnr} and SSIM {:.3} to the ideal screen",
         figures.action_flips * 100.0,
+        figures.missed * 100.0,
+        figures.false_alarms * 100.0,
+        figures.stale_regions * 100.0,
         figures.active * 100.0,
         figures.ideal_active * 100.0,
         figures.active_iou,

@@ -137,11 +137,19 @@ fn what_fit_finds_can_be_generated() {
         return;
     }
     let dir = tempfile::tempdir().unwrap();
-    let frame = ["--set", "frame={width=32,height=24}", "--frames", "8", "--quiet"];
-    let fit = |more: &[&str]| {
+    let frame = ["--set", "frame={width=32,height=24}", "--frames", "120", "--quiet"];
+    let fit_within = |limits: &[&str], more: &[&str]| {
         let fit = ["fit", "scene:street", "-o", "found.toml", "--max-syntheses", "1"];
-        run_in(dir.path(), &[&fit, &frame[..], more].concat())
+        run_in(dir.path(), &[&fit, &frame[..], limits, more].concat())
     };
+    // Twelve regions are too seldom active for a limit on missed regions or false alarms.
+    let fit =
+        |more: &[&str]| fit_within(&["--max-missed", "100%", "--max-false-alarms", "100%"], more);
+    let undecided = fit_within(&[], &[]);
+    assert_eq!(undecided.code, 1, "{}", undecided.stdout);
+    for part in ["undecided", "--max-missed needs at least 49", "use more frames"] {
+        assert!(undecided.stderr.contains(part), "{part}: {}", undecided.stderr);
+    }
     let found = fit(&["--max-flips", "0%", "--min-fps", "100", "--clock", "1MHz"]);
     assert_eq!(found.code, 0, "{}{}", found.stdout, found.stderr);
     assert!(found.stdout.contains("Cheapest: serial"), "{}", found.stdout);
@@ -165,7 +173,7 @@ fn what_fit_finds_can_be_generated() {
     assert!(none.stdout.contains("Binding: without --max-lut"), "{}", none.stdout);
     assert!(none.stderr.contains("no design meets all limits"), "{}", none.stderr);
     // The ground truth is an object in the lower left corner, which changes now and then.
-    let rows = (1..=8).map(|frame| format!("{frame},1,1,17,8,8,1,1,1\n"));
+    let rows = (1..=120).map(|frame| format!("{frame},1,1,17,8,8,1,1,1\n"));
     fs::write(dir.path().join("gt.txt"), rows.collect::<String>()).unwrap();
     let lost = fit(&["--max-flips", "0%", "--boxes", "gt.txt", "--min-recall", "90%"]);
     assert_eq!(lost.code, 1, "{}", lost.stdout);

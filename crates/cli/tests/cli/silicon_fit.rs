@@ -6,11 +6,19 @@ use std::path::Path;
 use foveate_toolchain::{Tool, Toolchain};
 use serde_json::Value;
 
-use crate::common::silicon::{LIBRARY, is_ready, number, write_clip};
+use crate::common::silicon::{LIBRARY, is_ready, number, write_long_clip};
 use crate::common::{foveate, run_in, run_successfully};
 
-/// A small task, of which few designs are synthesized.
-const TASK: [&str; 4] = ["clip", "--set", "region.size=4", "--max-flips=20%"];
+/// A small task, of which few designs are synthesized. Its clip has too few active regions for limits on
+/// missed regions and false alarms.
+const TASK: [&str; 6] = [
+    "clip",
+    "--set",
+    "region.size=4",
+    "--max-flips=20%",
+    "--max-missed=100%",
+    "--max-false-alarms=100%",
+];
 /// Fits a design to the clip. Returns the result and the exit code.
 fn fit(folder: &Path, args: &[&str]) -> (Value, i32) {
     let command = [&["fit", "--json", "--quiet", "-o", "design.toml"], &TASK[..], args];
@@ -34,7 +42,7 @@ fn the_cheapest_design_in_a_process_has_the_figures_of_estimate() {
         return;
     }
     let dir = tempfile::tempdir().unwrap();
-    write_clip(dir.path(), 8);
+    write_long_clip(dir.path());
     let (found, code) = fit(
         dir.path(),
         &[
@@ -51,7 +59,7 @@ fn the_cheapest_design_in_a_process_has_the_figures_of_estimate() {
     );
     assert_eq!(code, 0, "{found}");
     let estimate = ["estimate", "--json", "--quiet", "--config", "design.toml", "--liberty"];
-    let activity = ["--activity", "clip", "--max-frames", "10"];
+    let activity = ["--activity", "clip", "--max-frames", "40"];
     let report = run_successfully(dir.path(), &[&estimate[..], &activity].concat());
     let report: Value = serde_json::from_str(&report).unwrap();
     let process = &found["design"]["process"];
@@ -62,10 +70,10 @@ fn the_cheapest_design_in_a_process_has_the_figures_of_estimate() {
         number(process, "/energy/usual_mw"),
         number(&report, "/energy/stretches/1/stopped_clock_mw"),
     );
-    equal(
-        number(process, "/energy/busiest_mw"),
-        number(&report, "/energy/stretches/2/stopped_clock_mw"),
-    );
+    // The stretch that sends the most regions need not take the most power.
+    let stretches = [0, 1, 2].map(|at| format!("/energy/stretches/{at}/stopped_clock_mw"));
+    let most = stretches.iter().map(|stretch| number(&report, stretch)).fold(0.0, f64::max);
+    equal(number(process, "/energy/busiest_mw"), most);
     let parts = ["clock", "memory", "flip_flops", "logic"];
     let parts = parts.map(|part| format!("/energy/stretches/1/region_nj_per_frame/{part}"));
     let sum: f64 = parts.iter().map(|part| number(&report, part)).sum();
@@ -89,7 +97,7 @@ fn the_cheapest_design_is_that_of_the_wanted_cost() {
         return;
     }
     let dir = tempfile::tempdir().unwrap();
-    write_clip(dir.path(), 8);
+    write_long_clip(dir.path());
     let costs = |(cheapest, syntheses)| {
         let most = ["--max-syntheses", syntheses];
         let (found, _) =
@@ -114,7 +122,7 @@ fn a_design_with_a_large_memory_has_no_energy_and_no_clock_beyond_its_cells() {
         return;
     }
     let dir = tempfile::tempdir().unwrap();
-    write_clip(dir.path(), 8);
+    write_long_clip(dir.path());
     let args = ["--max-syntheses", "2", "--clock", "9GHz", "--memory-limit", "190", "--liberty"];
     let (found, _) = fit(dir.path(), &args);
     let design = &found["design"];
@@ -139,7 +147,7 @@ fn limits_of_a_process_can_be_binding() {
         return;
     }
     let dir = tempfile::tempdir().unwrap();
-    write_clip(dir.path(), 8);
+    write_long_clip(dir.path());
     let limits = [("max-mw", "0.000001", "energy"), ("max-mm2", "0.001", "mm2")];
     for (option, limit, cheapest) in limits {
         let limited = format!("--{option}={limit}");

@@ -72,8 +72,10 @@ fn nearest_task(
     // A scaled threshold can be out of range; such a task is left out.
     let (tasks, cameras): (Vec<CameraConfig>, Vec<_>) =
         tasks.into_iter().filter_map(|task| Some((task.clone(), camera(&task).ok()?))).unzip();
-    let shares = footage.measure_first_halves(&cameras, &halves.frames, 0)?;
-    let found = tasks.into_iter().zip(shares.iter().map(|(figures, _)| figures.active));
+    let first_half = |clip: usize| std::iter::once(0..halves.frames[clip].0).collect();
+    let measured = footage.measure_clip_parts(&cameras, first_half, 0)?;
+    let shares = measured.iter().flatten().map(|half| half.tally.figures().active);
+    let found = tasks.into_iter().zip(shares);
     let best = found
         .min_by(|(_, one), (_, other)| (one - wanted).abs().total_cmp(&(other - wanted).abs()));
     best.ok_or(ExploreError::NoPoints {

@@ -11,13 +11,17 @@ use foveate_design::HardwareConfig;
 use foveate_fidelity::FidelityFigures;
 use foveate_playback::ClipHalves;
 
-use super::constraints::{ConstraintCheck, Constraints, all_met, total_excess};
+use super::clip_part::ClipPart;
+use super::constraints::{ConstraintCheck, Constraints, PartFigures, all_met, total_excess};
+use super::decision_rates::{GroupedDecisions, MIN_REGIONS};
 use super::possible_designs::can_be_built;
+use super::searched_frames::SearchedFrames;
+use super::threshold_search::{BestThresholds, ThresholdSearch};
 use crate::ExploreError;
 use crate::footage::ExplorationFootage;
-use crate::objects::ObjectCounts;
+use crate::measure::CameraMeasurement;
 use crate::progress::measuring_progress;
-use crate::row::sum_tallies;
+use crate::row::{count_to_f64, sum_tallies};
 
 /// The sides of regions that are tried besides the task's.
 const SIDES: [u32; 3] = [4, 8, 16];
@@ -26,14 +30,17 @@ const FEWEST_BITS: u32 = 3;
 /// The number of pairs of a region size and features that are examined closely, even if they flip
 /// more than wanted.
 const MIN_EXAMINED_PAIRS: usize = 3;
-/// The factor of the wanted share of flips up to which further pairs are examined.
-const FLIP_FACTOR: f64 = 1.5;
+/// The distance from the limits up to which further pairs are examined.
+const NEAR_DISTANCE: f64 = 1.5;
+/// The number of nearest cameras that are examined if no camera meets the limits on its decisions.
+const MAX_NEAREST_CAMERAS: usize = 6;
 
 /// A camera and its figures on the first halves.
 #[derive(Clone, Debug)]
 pub(super) struct ExaminedCamera {
     pub(super) config: CameraConfig,
     pub(super) figures: FidelityFigures,
+    /// The constraints, which must hold in the searched part and in the part that confirms.
     pub(super) checks: Vec<ConstraintCheck>,
 }
 
@@ -53,6 +60,9 @@ pub(super) struct CameraSearch<'a> {
     task: CameraConfig,
     hardware: &'a HardwareConfig,
     examined: BTreeMap<String, ExaminedCamera>,
+    /// The best thresholds of cameras, by what else they are.
+    best: BTreeMap<String, BestThresholds>,
+    compared: usize,
 }
 
 impl ExaminedCamera {
@@ -76,12 +86,23 @@ impl<'a> CameraSearch<'a> {
     ) -> Result<Self, ExploreError> {
         let (width, height) = footage.size;
         let task = task.validate_for_frames(width, height)?.config().clone();
-        Ok(Self { constraints, footage, halves, task, hardware, examined: BTreeMap::new() })
+        let (examined, best) = (BTreeMap::new(), BTreeMap::new());
+        Ok(Self { constraints, footage, halves, task, hardware, examined, best, compared: 0 })
     }
 
     /// Returns all cameras that were examined.
     pub(super) fn all(&self) -> impl Iterator<Item = &ExaminedCamera> {
         self.examined.values()
+    }
+
+    /// Returns the best thresholds of all cameras.
+    pub(super) fn best_thresholds(&self) -> impl Iterator<Item = &BestThresholds> {
+        self.best.values()
+    }
+
+    /// Returns the number of cameras that were compared with the ideal.
+    pub(super) fn compared(&self) -> usize {
+        self.compared.max(self.examined.len())
     }
 
     /// Returns whether there is a limit on the screen or the sent bytes of a camera.
@@ -99,29 +120,82 @@ impl<'a> CameraSearch<'a> {
         self.examined.get(&config.to_toml())
     }
 
+    /// Returns a camera with its best thresholds, if these were searched.
+    pub(super) fn with_best_thresholds(&self, config: &CameraConfig) -> Option<&BestThresholds> {
+        self.best.get(&text_without_thresholds(config))
+    }
+
     pub(super) fn task(&self) -> &CameraConfig {
         &self.task
     }
 
-    /// Examines each pair of a region size and features with all thresholds worth trying. Then it
-    /// examines every cheaper version of the pairs with the fewest flips: other depths, windows,
-    /// filters and references.
+    /// Finds the best thresholds of each pair of a region size and features. Then it finds those of
+    /// every cheaper version of the nearest pairs: other depths, windows, filters and references. It
+    /// examines the cameras that meet the limits, or the nearest ones if none does.
+    ///
+    /// # Errors
+    /// Fails if the ideal camera is active too rarely for a limit on missed regions.
     pub(super) fn run(&mut self) -> Result<(), ExploreError> {
-        let mut bases = Vec::new();
-        for side in self.sides() {
-            for features in self.features() {
-                let mut tries = self.exact_cameras(side, &features);
-                tries.retain(|config| can_be_built(config, self.hardware));
-                let best = self.examine(&tries)?.into_iter().min_by(by_flips);
-                bases.extend(best);
-            }
+        let frames = SearchedFrames::read(self.footage, self.halves, &self.task.validate()?)?;
+        self.check_active_regions(&frames)?;
+        let mut search = ThresholdSearch::new(&frames, self.constraints);
+        let features = self.features();
+        let pairs = self.sides().into_iter();
+        let pairs = pairs.flat_map(|side| features.iter().map(move |features| (side, features)));
+        let starts = pairs.map(|(side, features)| {
+            let mut starts = self.exact_cameras(side, features);
+            starts.retain(|config| can_be_built(config, self.hardware));
+            starts
+        });
+        let mut found = search.run(starts.collect())?;
+        found.retain(|nearest| !nearest.is_empty());
+        found.sort_by(|one, other| one[0].distance.total_cmp(&other[0].distance));
+        let near = found.iter().filter(|nearest| nearest[0].distance <= NEAR_DISTANCE).count();
+        let bases = found.iter().take(near.max(MIN_EXAMINED_PAIRS)).map(|nearest| &nearest[0]);
+        let cheaper = bases.flat_map(|base| self.cheaper_cameras(&base.config));
+        let cheaper = cheaper.filter(|config| can_be_built(config, self.hardware));
+        found.extend(search.run(cheaper.map(|config| vec![config]).collect())?);
+        self.compared = search.compared;
+        found.retain(|nearest| !nearest.is_empty());
+        found.sort_by(|one, other| one[0].distance.total_cmp(&other[0].distance));
+        for nearest in &found {
+            let key = text_without_thresholds(&nearest[0].config);
+            self.best.entry(key).or_insert_with(|| nearest[0].clone());
         }
-        bases.sort_by(by_flips);
-        let wanted = self.constraints.max_flips.unwrap_or(0.0) * FLIP_FACTOR;
-        let near = bases.iter().filter(|examined| examined.figures.action_flips <= wanted).count();
-        bases.truncate(near.max(MIN_EXAMINED_PAIRS));
-        for base in bases {
-            self.examine(&self.cheaper_cameras(&base.config))?;
+        self.examine_nearest(&found)
+    }
+
+    /// Examines the cameras that meet the limits on their decisions in the searched part, each with the
+    /// best thresholds that meet all limits in both parts; or the nearest cameras if there is none.
+    fn examine_nearest(&mut self, found: &[Vec<BestThresholds>]) -> Result<(), ExploreError> {
+        let holding = found.iter().filter(|nearest| all_met(&nearest[0].checks)).count();
+        let nearest = &found[..holding.max(MAX_NEAREST_CAMERAS).min(found.len())];
+        let most = nearest.iter().map(Vec::len).max().unwrap_or(0);
+        let mut open: Vec<&Vec<BestThresholds>> = nearest.iter().collect();
+        for alternative in 0..most {
+            let of_camera = |nearest: &&Vec<BestThresholds>| {
+                let best = nearest.get(alternative)?;
+                let is_worth_it = alternative == 0 || all_met(&best.checks);
+                is_worth_it.then(|| best.config.clone())
+            };
+            let configs: Vec<_> = open.iter().filter_map(of_camera).collect();
+            self.examine(&configs)?;
+            open.retain(|nearest| {
+                let config = nearest.get(alternative).map(|best| &best.config);
+                let examined = config.and_then(|config| self.get(config));
+                examined.is_some_and(|examined| !examined.meets_limits())
+            });
+        }
+        Ok(())
+    }
+
+    /// Fails if the ideal camera is active too rarely for a limit on missed regions.
+    fn check_active_regions(&self, frames: &SearchedFrames<'_>) -> Result<(), ExploreError> {
+        let side = f64::from(self.task.region.size);
+        let regions = frames.areas.map(|areas| count_to_f64(areas.later.ideal) / (side * side));
+        let is_limited = self.constraints.max_missed.is_some_and(|limit| limit < 1.0);
+        if is_limited && regions.iter().any(|regions| *regions < MIN_REGIONS) {
+            return Err(ExploreError::Undecided { regions: regions.map(f64::round) });
         }
         Ok(())
     }
@@ -192,7 +266,8 @@ impl<'a> CameraSearch<'a> {
         found.into_iter().chain(coarse).collect()
     }
 
-    /// Examines cameras on the first halves. It leaves out invalid cameras.
+    /// Examines cameras on the searched part of all clips and on the part that confirms. It leaves out
+    /// invalid cameras.
     pub(super) fn examine(
         &mut self,
         configs: &[CameraConfig],
@@ -204,17 +279,21 @@ impl<'a> CameraSearch<'a> {
             .filter(|(text, _)| !self.examined.contains_key(text))
             .collect();
         let new_cameras: Vec<_> = new.values().cloned().collect();
-        let figures = self.footage.measure_first_halves(
+        let parts = [ClipPart::Search, ClipPart::Confirmation];
+        let measured = self.footage.measure_clip_parts(
             &new_cameras,
-            &self.halves.frames,
+            |clip| parts.map(|part| part.frames(self.halves.frames[clip])).to_vec(),
             self.examined.len(),
         )?;
-        for ((text, camera), (figures, objects)) in new.iter().zip(figures) {
-            let recall = self.recall(objects, "first")?;
-            let checks = self.constraints.check_figures(camera, &figures, recall);
+        for ((text, camera), measured) in new.iter().zip(measured) {
+            let figures = sum_tallies(&measured.iter().collect::<Vec<_>>());
+            let figures = figures.map(|tally| tally.figures());
+            let figures = figures.ok_or(ConfigError::Syntax("no clip".to_owned()))?;
+            let parts = measured.into_iter().map(|part| self.part_figures(part, "first"));
+            let parts = parts.collect::<Result<Vec<_>, _>>()?;
+            let checks = self.constraints.check_parts(camera, self.task.region.size, &parts);
             let config = camera.config().clone();
-            let examined = ExaminedCamera { config, figures, checks };
-            self.examined.insert(text.clone(), examined);
+            self.examined.insert(text.clone(), ExaminedCamera { config, figures, checks });
         }
         Ok(cameras.iter().filter_map(|camera| self.get(camera.config()).cloned()).collect())
     }
@@ -226,45 +305,50 @@ impl<'a> CameraSearch<'a> {
         examined: &ExaminedCamera,
     ) -> Result<SecondHalfResult, ExploreError> {
         let camera = examined.config.validate()?;
-        let (mut measured, mut problems) = (Vec::new(), Vec::new());
+        let (mut sum, mut problems) = (None, Vec::new());
         for (clip, &(half, all)) in self.halves.frames.iter().enumerate() {
             let stage = |_| measuring_progress(0, 1);
             let cameras = std::slice::from_ref(&camera);
             let parts = self.footage.measure_parts(clip, cameras, &[0..half, half..all], &stage)?;
             let mut parts: Vec<_> = parts.into_iter().flatten().collect();
-            let left = parts.iter().map(|part| part.tally.figures().frames).sum::<u64>();
+            let left = parts.iter().map(|part| part.tally.frames()).sum::<u64>();
             if left < all {
                 let name = &self.footage.clips.clips()[clip].name;
                 problems
                     .push(format!("{name}: it had {all} frames at first, and later only {left}"));
             }
-            measured.extend(parts.pop());
+            CameraMeasurement::merge(&mut sum, parts.pop());
         }
-        let all: Vec<_> = measured.iter().collect();
-        let figures = sum_tallies(&all).map(|tally| tally.figures());
-        let figures = figures.ok_or(ConfigError::Syntax("no clip".to_owned()))?;
-        let mut objects = ObjectCounts::default();
-        measured.iter().for_each(|part| objects.merge(part.objects));
-        let recall = self.recall(objects, "second")?;
-        let checks = self.constraints.check_figures(&camera, &figures, recall);
-        Ok(SecondHalfResult { figures, checks, problems })
+        let part = sum.ok_or(ConfigError::Syntax("no clip".to_owned()))?;
+        let part = self.part_figures(part, "second")?;
+        let checks = self.constraints.check_figures(&camera, &part);
+        Ok(SecondHalfResult { figures: part.figures, checks, problems })
     }
 
-    /// Returns the share of the objects of a half that is sent, if it is limited.
-    fn recall(
+    /// Returns the figures of a part of all clips.
+    fn part_figures(
         &self,
-        objects: ObjectCounts,
+        measured: CameraMeasurement,
         half: &'static str,
-    ) -> Result<Option<f64>, ExploreError> {
-        if self.constraints.min_recall.is_none() {
-            return Ok(None);
-        }
-        objects.recall().ok_or(ExploreError::NoObjects { half }).map(Some)
+    ) -> Result<PartFigures, ExploreError> {
+        let CameraMeasurement { tally, frames, objects, .. } = measured;
+        let recall = match self.constraints.min_recall {
+            Some(_) => Some(objects.recall().ok_or(ExploreError::NoObjects { half })?),
+            None => None,
+        };
+        let decisions = GroupedDecisions::from_frames(&frames);
+        Ok(PartFigures { figures: tally.figures(), decisions, recall })
     }
 }
 
-fn by_flips(one: &ExaminedCamera, other: &ExaminedCamera) -> std::cmp::Ordering {
-    one.figures.action_flips.total_cmp(&other.figures.action_flips)
+/// Returns a text that is equal for cameras that differ in their thresholds only.
+fn text_without_thresholds(config: &CameraConfig) -> String {
+    let mut config = config.clone();
+    (config.temporal.level, config.temporal.min_count) = (None, 0);
+    for entry in &mut config.spatial {
+        (entry.level, entry.min_score) = (None, None);
+    }
+    config.to_toml()
 }
 
 /// Scales a number of pixels of a region to another region size: unchanged, in proportion to the
@@ -398,5 +482,51 @@ mod tests {
         let second = search.measure_second_half(&chosen).unwrap();
         assert_eq!(second.figures.frames, 6);
         assert_eq!(second.problems, ["shortened: it had 12 frames at first, and later only 6"]);
+    }
+
+    /// The levels of 4 bits that the task's round to are not the best ones: with them no minima meet the
+    /// limits. The search is as near to the limits as all cameras of a grid.
+    #[test]
+    fn thresholds_are_chosen_anew_for_a_depth() {
+        let dir = tempfile::tempdir().unwrap();
+        let inputs = [dir.path().join("clip")];
+        write_clip(&inputs[0], 60);
+        let task = "[frame]\nwidth = 48\nheight = 32\n[temporal]\nlevel = 7\n";
+        let task = CameraConfig::from_toml(task).unwrap();
+        let options = InputOptions::default();
+        let constraints = Constraints {
+            max_flips: Some(0.02),
+            max_missed: Some(0.1),
+            max_false_alarms: Some(0.1),
+            ..Constraints::default()
+        };
+        let footage =
+            ExplorationFootage::new((&inputs, &[]), &options, &task, &SilentHooks).unwrap();
+        let monitor = RunMonitor::of_frames(&SilentHooks, None);
+        let halves = ClipHalves::count(&footage.clips, 6, &monitor).unwrap();
+        let hardware = HardwareConfig::default();
+        let search = CameraSearch::new(&constraints, &footage, &halves, &task, &hardware).unwrap();
+        let ideal = search.task.validate().unwrap();
+        let frames = SearchedFrames::read(&footage, &halves, &ideal).unwrap();
+        let mut thresholds = ThresholdSearch::new(&frames, &constraints);
+        let mut start = search.task.clone();
+        start.region.neighborhood = Neighborhood::Shared;
+        let start = start.scaled_to_depth(4);
+        let best = thresholds.run(vec![vec![start.clone()]]).unwrap().remove(0).remove(0);
+        let mut least = f64::INFINITY;
+        for level in 0..3 {
+            for edge in 2..12 {
+                let mut config = start.clone();
+                config.temporal.level = Some(level);
+                config.spatial[0].level = Some(edge);
+                let alone = thresholds.run_alone(&config).unwrap();
+                if config == start {
+                    assert!(alone.distance > best.distance, "the start is not the best one");
+                }
+                least = least.min(alone.distance);
+            }
+        }
+        assert!(best.distance <= least, "{} {least}", best.distance);
+        assert!(all_met(&best.checks) && !best.is_lower_bound, "{:?}", best.checks);
     }
 }

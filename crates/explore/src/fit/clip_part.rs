@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The parts of every clip that a fit with a network uses, and the frames that the network sees.
+//! The parts of every clip that a fit uses, and the frames that a network sees.
 
 use std::ops::Range;
 
@@ -23,14 +23,20 @@ impl ClipPart {
     pub(super) const MIN_FRAMES: u64 = 6;
 
     /// Returns the frames of this part of a clip with `all` frames, of which `half` are the first
-    /// half. The first frame belongs to no part, because every camera sends it whole.
+    /// half.
     pub(super) fn frames(self, (half, all): (u64, u64)) -> Range<u64> {
         let searched = (2 * half).div_ceil(3);
         match self {
-            Self::Search => 1..searched,
+            Self::Search => 0..searched,
             Self::Confirmation => searched..half,
             Self::HeldOut => half..all,
         }
+    }
+
+    /// Returns the frames without the first one of the clip, which every camera sends whole.
+    pub(super) fn later_frames(self, halves: (u64, u64)) -> Range<u64> {
+        let Range { start, end } = self.frames(halves);
+        start.max(1)..end
     }
 }
 
@@ -51,7 +57,7 @@ mod tests {
     fn parts_follow_each_other() {
         for all in ClipPart::MIN_FRAMES..200 {
             let [searched, confirmed, held_out] =
-                ClipPart::ALL.map(|part| part.frames((all / 2, all)));
+                ClipPart::ALL.map(|part| part.later_frames((all / 2, all)));
             let ends = (searched.start, held_out.end);
             assert_eq!(
                 (ends, searched.end, confirmed.end),

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The limits that a design must meet, and its distance from them.
 
+use std::cmp::Ordering;
+
 use foveate_camera::Camera;
 use foveate_estimate::FrameRate;
 use foveate_fidelity::FidelityFigures;
 use serde::Serialize;
 
+use super::decision_rates::{DecisionRate, DecisionRates, GroupedDecisions, MIN_REGIONS};
 use crate::cost::DesignArea;
 use crate::row::{bytes_per_frame, count_to_f64};
 use crate::target_process::{ProcessEnergy, ProcessFigures};
@@ -15,8 +18,12 @@ use crate::target_process::{ProcessEnergy, ProcessFigures};
 pub struct Constraints {
     /// The largest share of regions whose action differs from the ideal's.
     pub max_flips: Option<f64>,
-    /// The largest share of the ideal's active area that is not active in the design.
+    /// The largest share of the ideal's active area that is not active in the design, without the
+    /// first frame of every clip.
     pub max_missed: Option<f64>,
+    /// The largest share of the design's active area that is not active in the ideal, without the
+    /// first frame of every clip.
+    pub max_false_alarms: Option<f64>,
     /// The least PSNR of the screen against the ideal's screen, in dB.
     pub min_psnr: Option<f64>,
     /// The most frames in a row for which a relevant region may be stale.
@@ -68,7 +75,22 @@ pub struct ConstraintCheck {
     /// True if the figure is the one to expect of other frames, and not the one of these frames.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub is_expected: bool,
+    /// The number of regions that the figure is a share of, if these are too few to decide.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub too_few_regions: Option<f64>,
 }
+
+/// The figures of a camera in a part of all clips.
+#[derive(Clone, Debug)]
+pub(super) struct PartFigures {
+    pub(super) figures: FidelityFigures,
+    pub(super) decisions: GroupedDecisions,
+    /// The share of the objects that is sent, if it is limited.
+    pub(super) recall: Option<f64>,
+}
+
+/// The names of the limits on flips, missed regions and false alarms.
+const RATE_NAMES: [&str; 3] = ["max-flips", "max-missed", "max-false-alarms"];
 
 impl ConstraintCheck {
     fn check_at_most(name: &'static str, value: f64, limit: f64) -> Self {
@@ -81,7 +103,33 @@ impl ConstraintCheck {
 
     fn check_at_least(name: &'static str, value: f64, limit: f64) -> Self {
         let holds = value >= limit;
-        Self { name, value, limit, is_minimum: true, holds, clock_mhz: None, is_expected: false }
+        Self {
+            name,
+            value,
+            limit,
+            is_minimum: true,
+            holds,
+            clock_mhz: None,
+            is_expected: false,
+            too_few_regions: None,
+        }
+    }
+
+    /// Returns the constraint on a rate: the one to expect of other frames. A limit of 0 means that
+    /// there is no error, and has no margin. With fewer than [`MIN_REGIONS`] regions a share is not
+    /// known, and meets only a limit of 1.
+    fn check_rate(name: &'static str, rate: &DecisionRate, limit: f64) -> Self {
+        let is_expected = limit > 0.0;
+        let value = if is_expected { rate.expected } else { rate.share };
+        let too_few = (rate.regions < MIN_REGIONS && limit < 1.0).then_some(rate.regions);
+        let check = Self::check_at_most(name, value, limit);
+        let holds = check.holds && too_few.is_none();
+        Self { holds, is_expected, too_few_regions: too_few, ..check }
+    }
+
+    /// Returns the constraint of a share of flips, 0 to 1.
+    pub(super) fn check_flips(share: f64, limit: f64) -> Self {
+        Self::check_at_most(RATE_NAMES[0], share, limit)
     }
 
     /// Returns the constraint of a network's agreement, 0 to 1, with its least value.
@@ -102,7 +150,7 @@ impl ConstraintCheck {
         if self.holds {
             return 0.0;
         }
-        if self.value.is_infinite() {
+        if self.value.is_infinite() || self.too_few_regions.is_some() {
             return UNKNOWN_EXCESS;
         }
         let (more, less) =
@@ -115,7 +163,7 @@ impl ConstraintCheck {
     pub fn text(&self) -> String {
         let side = if self.is_minimum { "at least" } else { "at most" };
         let number = |value: f64| match self.name {
-            "max-flips" | "max-missed" | "min-recall" | "min-agreement" => {
+            "max-flips" | "max-missed" | "max-false-alarms" | "min-recall" | "min-agreement" => {
                 format!("{:.2} %", value * 100.0)
             }
             "min-psnr" if value.is_infinite() => "identical".to_owned(),
@@ -128,6 +176,7 @@ impl ConstraintCheck {
         let what = match self.name {
             "max-flips" => "flips",
             "max-missed" => "missed",
+            "max-false-alarms" => "false alarms",
             "min-psnr" => "PSNR",
             "max-stale-frames" => "stale frames",
             "max-bytes" => "bytes per frame",
@@ -141,6 +190,11 @@ impl ConstraintCheck {
             "max-mw" => "mW in the busiest stretch",
             _ => "RAMB36",
         };
+        if let Some(regions) = self.too_few_regions {
+            return format!(
+                "{what} undecided: they are a share of {regions:.0} regions in a part of the clips, and at least {MIN_REGIONS} are needed"
+            );
+        }
         let clock = self.clock_mhz.map(|mhz| format!(" at {} MHz", hundredths(mhz)));
         let clock = clock.unwrap_or_default();
         let what = if self.is_expected {
@@ -170,29 +224,83 @@ pub(super) fn all_met(checks: &[ConstraintCheck]) -> bool {
     checks.iter().all(|check| check.holds)
 }
 
+/// Returns of each two checks of the same limit the one that is farther from its limit.
+fn worse_checks(one: Vec<ConstraintCheck>, other: Vec<ConstraintCheck>) -> Vec<ConstraintCheck> {
+    let is_worse = |check: &ConstraintCheck, than: &ConstraintCheck| {
+        let (value, other) = (check.value, than.value);
+        match check.excess().total_cmp(&than.excess()) {
+            Ordering::Greater => true,
+            Ordering::Less => false,
+            Ordering::Equal if check.is_minimum => value < other,
+            Ordering::Equal => value > other,
+        }
+    };
+    let worse = |(one, other)| if is_worse(&other, &one) { other } else { one };
+    one.into_iter().zip(other).map(worse).collect()
+}
+
 /// Returns the sum of the distances of all figures from their limits.
 pub(super) fn total_excess(checks: &[ConstraintCheck]) -> f64 {
     checks.iter().map(ConstraintCheck::excess).sum()
 }
 
 impl Constraints {
-    /// Returns the constraints on the screen and the sent bytes of a camera. `recall` is known if
-    /// it is limited.
-    #[must_use]
-    pub fn check_figures(
+    /// Returns the constraints on the decisions, the screen and the sent bytes of a camera over the
+    /// held out frames.
+    pub(super) fn check_figures(
         &self,
         camera: &Camera,
-        figures: &FidelityFigures,
-        recall: Option<f64>,
+        part: &PartFigures,
     ) -> Vec<ConstraintCheck> {
+        let FidelityFigures { action_flips, missed, false_alarms, .. } = part.figures;
+        let rates = [action_flips, missed, false_alarms];
+        let rates = RATE_NAMES.into_iter().zip(self.rate_limits()).zip(rates);
+        let rate = |((name, limit), share): ((_, Option<f64>), f64)| {
+            limit.map(|limit| ConstraintCheck::check_at_most(name, share, limit))
+        };
+        rates.filter_map(rate).chain(self.check_screen(camera, part)).collect()
+    }
+
+    /// Returns the constraints on the decisions, the screen and the sent bytes of a camera, each with
+    /// the worse of its figures in two parts of the clips. Rates are those to expect of other frames.
+    pub(super) fn check_parts(
+        &self,
+        camera: &Camera,
+        ideal_side: u32,
+        parts: &[PartFigures],
+    ) -> Vec<ConstraintCheck> {
+        let of_part = |part: &PartFigures| {
+            let rates = part.decisions.rates((ideal_side, camera.region_size()));
+            let mut checks = self.check_rates(&rates);
+            checks.extend(self.check_screen(camera, part));
+            checks
+        };
+        parts.iter().map(of_part).reduce(worse_checks).unwrap_or_default()
+    }
+
+    /// Returns the constraints on flips, missed regions and false alarms to expect of other frames.
+    pub(super) fn check_rates(&self, rates: &DecisionRates) -> Vec<ConstraintCheck> {
+        let DecisionRates { flips, missed, false_alarms } = rates;
+        let all = RATE_NAMES.into_iter().zip(self.rate_limits()).zip([flips, missed, false_alarms]);
+        let check = |((name, limit), rate): ((_, Option<f64>), &DecisionRate)| {
+            limit.map(|limit| ConstraintCheck::check_rate(name, rate, limit))
+        };
+        all.filter_map(check).collect()
+    }
+
+    /// Returns the limits on flips, missed regions and false alarms.
+    fn rate_limits(&self) -> [Option<f64>; 3] {
+        [self.max_flips, self.max_missed, self.max_false_alarms]
+    }
+
+    fn check_screen(&self, camera: &Camera, part: &PartFigures) -> Vec<ConstraintCheck> {
+        let PartFigures { figures, recall, .. } = part;
         let at_most = |name, limit: Option<f64>, value| {
             limit.map(|l| ConstraintCheck::check_at_most(name, value, l))
         };
         // Identical screens have the best PSNR.
         let psnr = figures.psnr_ideal.unwrap_or(f64::INFINITY);
         [
-            at_most("max-flips", self.max_flips, figures.action_flips),
-            at_most("max-missed", self.max_missed, figures.missed),
             self.min_psnr.map(|limit| ConstraintCheck::check_at_least("min-psnr", psnr, limit)),
             at_most(
                 "max-stale-frames",
@@ -201,7 +309,7 @@ impl Constraints {
             ),
             at_most("max-bytes", self.max_bytes, bytes_per_frame(camera, figures)),
             self.min_recall
-                .zip(recall)
+                .zip(*recall)
                 .map(|(limit, r)| ConstraintCheck::check_at_least("min-recall", r, limit)),
         ]
         .into_iter()
@@ -211,11 +319,9 @@ impl Constraints {
 
     /// Returns whether there is a limit on the screen or the sent bytes of a camera.
     pub(super) fn limits_figures(&self) -> bool {
-        let Self {
-            max_flips, max_missed, min_psnr, max_stale_frames, max_bytes, min_recall, ..
-        } = self;
-        let shares = [max_flips, max_missed, min_psnr, max_bytes, min_recall];
-        shares.iter().any(|limit| limit.is_some()) || max_stale_frames.is_some()
+        let Self { min_psnr, max_stale_frames, max_bytes, min_recall, .. } = self;
+        let others = [min_psnr, max_bytes, min_recall];
+        self.rate_limits().iter().chain(others).any(Option::is_some) || max_stale_frames.is_some()
     }
 
     /// Returns the constraint on speed, at the low end of the clock. Without a clock it is not met.
@@ -281,5 +387,35 @@ mod tests {
         assert!(
             of_none.is_finite() && of_none > ConstraintCheck::check_at_most("a", 0.5, 0.1).excess()
         );
+    }
+
+    /// A camera that never sends has no false alarms, and no limit on them is known to hold.
+    #[test]
+    fn a_rate_of_too_few_regions_is_undecided() {
+        let rate = |regions| DecisionRate { share: 0.0, expected: 0.01, regions };
+        let check =
+            |regions, limit| ConstraintCheck::check_rate("max-false-alarms", &rate(regions), limit);
+        assert!(check(49.0, 0.1).holds && !check(48.0, 0.1).holds && check(0.0, 1.0).holds);
+        let text = check(48.0, 0.1).text();
+        assert_eq!(
+            text,
+            "false alarms undecided: they are a share of 48 regions in a part of the clips, and at least 49 are needed"
+        );
+        assert!(check(48.0, 0.1).excess() > check(49.0, 1e-6).excess());
+        // A limit of 0 has no margin.
+        let exact = check(49.0, 0.0);
+        assert!(exact.holds && !exact.is_expected && !check(49.0, 0.005).holds);
+    }
+
+    #[test]
+    fn the_worse_of_two_parts_counts() {
+        let check = |value| ConstraintCheck::check_at_most("max-flips", value, 0.02);
+        let worse = |one, other| worse_checks(vec![check(one)], vec![check(other)])[0].value;
+        assert_eq!(
+            [worse(0.01, 0.015), worse(0.015, 0.01), worse(0.03, 0.01)],
+            [0.015, 0.015, 0.03]
+        );
+        let psnr = |value| ConstraintCheck::check_at_least("min-psnr", value, 20.0);
+        assert_eq!(worse_checks(vec![psnr(30.0)], vec![psnr(25.0)])[0].value, 25.0);
     }
 }

@@ -123,7 +123,7 @@ impl FitFindings<'_> {
         let mut why = agreements.reasons(&chosen.examined.config, least_agreement);
         why.extend(reasons::reason_lines(search, &synthesized, chosen, request));
         FitResult {
-            format_version: 4,
+            format_version: 5,
             frames: frames_of_halves(halves),
             luma: request.input.luma.name(),
             task: DesignConfig { camera: search.task().clone(), ..DesignConfig::default() }
@@ -132,7 +132,7 @@ impl FitFindings<'_> {
             clock_hz: request.clock_hz,
             considered: (
                 // A descent examines only some of the cameras that the network ran behind.
-                search.all().count().max(agreements.count()),
+                search.compared().max(agreements.count()),
                 synthesized.designs().len(),
                 synthesized.left_out_designs,
             ),

@@ -5,8 +5,11 @@
 //! 1. If a share of active regions is wanted, the task's thresholds are set for it
 //!    ([`activity_target`]).
 //! 2. The search tries cameras. A camera says what is computed, and not how it is built. The search
-//!    tries region sizes and features, each with the thresholds that agree best with the ideal. For
-//!    the best of them it tries all depths, windows, filters and references ([`camera_search`]).
+//!    tries region sizes and features, and for the best of them all depths, windows, filters and
+//!    references ([`camera_search`]), each with the thresholds that are nearest to the limits
+//!    ([`threshold_search`]). Thresholds are chosen on the first two thirds of the first half. All
+//!    limits must hold there and on the rest of the first half ([`clip_part`]), with a margin for
+//!    other frames ([`decision_rates`]).
 //!    With a network, the search is a descent from the task instead: the network must agree, behind
 //!    the camera, with its outputs for whole frames ([`descent`], [`network_agreement`]).
 //! 3. Of the cameras that meet the limits, only the simplest are built: a camera is dropped if a
@@ -26,6 +29,7 @@ mod camera_search;
 mod clip_part;
 mod constraints;
 mod cost_objective;
+mod decision_rates;
 mod descent;
 mod fit_result;
 mod known_agreements;
@@ -34,13 +38,17 @@ mod network_goal;
 mod possible_designs;
 mod reasons;
 mod rough_cost;
+mod sampling_error;
+mod searched_frames;
 mod simplest_cameras;
 mod slower_designs;
 mod synthesis;
 mod synthesized_design;
 #[cfg(test)]
 mod test_clip;
+mod threshold_run;
 mod threshold_scaling;
+mod threshold_search;
 
 use std::ops::Range;
 use std::path::PathBuf;
@@ -70,9 +78,6 @@ pub use constraints::{ConstraintCheck, Constraints};
 pub use cost_objective::CostObjective;
 pub use fit_result::{FitResult, FittedDesign};
 pub use network_goal::{FittedNetwork, NetworkGoal};
-
-/// The least number of frames of a clip: each half needs a first frame, and one that can change.
-const MIN_FRAMES: u64 = 4;
 
 /// The request of a fit.
 #[derive(Clone, Debug)]
@@ -131,10 +136,9 @@ impl FitRequest<'_> {
 
     /// Returns the least number of frames of a clip.
     fn min_frames(&self) -> u64 {
-        let of_network = self.network.map_or(MIN_FRAMES, |_| ClipPart::MIN_FRAMES);
         // Each half is a clip whose activity is measured.
-        let of_energy = self.process.map_or(MIN_FRAMES, |_| 2 * ActivityClip::MIN_FRAMES);
-        of_network.max(of_energy)
+        let of_energy = self.process.map_or(0, |_| 2 * ActivityClip::MIN_FRAMES);
+        of_energy.max(ClipPart::MIN_FRAMES)
     }
 
     /// Returns the first halves and the second halves of all clips, on which energies are measured, if there

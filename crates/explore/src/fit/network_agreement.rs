@@ -61,7 +61,7 @@ impl<'a> NetworkAgreement<'a> {
         let monitor = RunMonitor::of_stage(footage.hooks, &stage);
         monitor.report();
         for (clip, &frames) in halves.frames.iter().enumerate() {
-            let wanted = ClipPart::ALL.map(|part| spread_evenly(part.frames(frames), most));
+            let wanted = ClipPart::ALL.map(|part| spread_evenly(part.later_frames(frames), most));
             let mut run = vision_network.start_run(frame_format_of(&camera));
             let mut player = footage.clips.open(clip)?.limited_to(frames.1);
             let mut samples_of_clip = [const { Vec::new() }; 3];

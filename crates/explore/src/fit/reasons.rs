@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The reasons why a design was chosen: the effect of one step to something simpler.
 
+use std::collections::BTreeMap;
 use std::iter;
 
 use foveate_camera::{
@@ -11,11 +12,12 @@ use foveate_design::{Design, Organization};
 use foveate_estimate::FrameRate;
 
 use super::FitRequest;
-use super::camera_search::{CameraSearch, ExaminedCamera};
+use super::camera_search::CameraSearch;
 use super::constraints::ConstraintCheck;
 use super::simplest_cameras::filter_complexity;
 use super::synthesis::SynthesizedDesigns;
 use super::synthesized_design::SynthesizedDesign;
+use super::threshold_search::BestThresholds;
 
 /// Describes a design in a few words.
 pub(super) fn design_text(design: &Design) -> String {
@@ -60,10 +62,8 @@ pub(super) fn reason_lines(
 ) -> Vec<String> {
     let mut lines = Vec::new();
     for (step, config) in simpler_cameras(&chosen.examined.config) {
-        // The search has examined only some of these steps; the others are left out.
-        if let Some(examined) = search.get(&config) {
-            lines.push(format!("{step}: {}", limits_or_cost_text(examined, built)));
-        }
+        // The search has compared only some of these steps; the others are left out.
+        lines.extend(judged_text(search, built, &config).map(|text| format!("{step}: {text}")));
     }
     lines.extend(other_features(search, built, chosen));
     let is_comparable = |other: &&SynthesizedDesign| {
@@ -147,22 +147,33 @@ fn simpler_cameras(chosen: &CameraConfig) -> Vec<(String, CameraConfig)> {
     found
 }
 
-/// Returns the limits that a camera misses, or its cost if it meets them.
-fn limits_or_cost_text(examined: &ExaminedCamera, built: &SynthesizedDesigns) -> String {
-    let broken: Vec<String> =
-        examined.checks.iter().filter(|check| !check.holds).map(ConstraintCheck::text).collect();
+/// Returns the limits that a camera misses with its best thresholds, or its cost if it meets all;
+/// `None` if it was not compared.
+fn judged_text(
+    search: &CameraSearch<'_>,
+    built: &SynthesizedDesigns,
+    config: &CameraConfig,
+) -> Option<String> {
+    let best = search.with_best_thresholds(config);
+    let examined = search.get(best.map_or(config, |best| &best.config));
+    let checks = examined.map(|examined| &examined.checks).or(best.map(|best| &best.checks))?;
+    let broken = checks.iter().filter(|check| !check.holds).map(ConstraintCheck::text);
+    let broken = broken.collect::<Vec<_>>().join(", ");
     if !broken.is_empty() {
-        return broken.join(", ");
+        let is_lower_bound = examined.is_none() && best.is_some_and(|best| best.is_lower_bound);
+        let bound = if is_lower_bound { "more than" } else { "at best" };
+        return Some(format!("{bound} {broken}"));
     }
+    let examined = examined?;
     let flips = examined.figures.action_flips * 100.0;
-    let own =
-        built.designs().iter().filter(|candidate| candidate.examined.config == examined.config);
-    match own.min_by(|one, other| one.cost().total_cmp(&other.cost())) {
+    let of_camera = built.designs().iter();
+    let own = of_camera.filter(|candidate| candidate.examined.config == examined.config);
+    Some(match own.min_by(|one, other| one.cost().total_cmp(&other.cost())) {
         Some(candidate) => format!("{flips:.2} % flips; {}", cost_text(candidate)),
         None => format!(
             "{flips:.2} % flips; not synthesized, because it is less promising or a simpler one meets the limits"
         ),
-    }
+    })
 }
 
 /// Returns a line for the best camera of every other set of features and region size.
@@ -175,30 +186,25 @@ fn other_features(
         let names: Vec<&str> = config.spatial.iter().map(|entry| entry.feature.name()).collect();
         (names.join(" and "), config.region.size)
     };
-    let synthesized = |examined: &ExaminedCamera| {
-        built.designs().iter().any(|candidate| candidate.examined.config == examined.config)
-    };
-    let rank = |examined: &ExaminedCamera| (examined.excess(), !synthesized(examined));
     let own = of(&chosen.examined.config);
-    let mut best: Vec<((String, u32), &ExaminedCamera)> = Vec::new();
-    for examined in search.all().filter(|examined| of(&examined.config) != own) {
-        let key = of(&examined.config);
-        match best.iter_mut().find(|(other, _)| *other == key) {
-            Some((_, found)) if rank(found) <= rank(examined) => {}
-            Some((_, found)) => *found = examined,
-            None => best.push((key, examined)),
+    let mut best: BTreeMap<(String, u32), &BestThresholds> = BTreeMap::new();
+    for camera in search.best_thresholds() {
+        let key = of(&camera.config);
+        // Readers ask for cameras that differ in one setting only.
+        if key != own && (key.0 == own.0 || key.1 == own.1) {
+            let known = best.entry(key).or_insert(camera);
+            if camera.distance < known.distance {
+                *known = camera;
+            }
         }
     }
-    // Readers ask for cameras that differ in one setting only.
-    best.retain(|((features, size), _)| *features == own.0 || *size == own.1);
-    best.sort_by(|one, other| one.1.excess().total_cmp(&other.1.excess()));
-    let line = |((features, size), examined): ((String, u32), &ExaminedCamera)| {
-        format!(
-            "{features} in {size}x{size} regions: at best {}",
-            limits_or_cost_text(examined, built)
-        )
+    let mut best: Vec<_> = best.into_iter().collect();
+    best.sort_by(|one, other| one.1.distance.total_cmp(&other.1.distance));
+    let line = |((features, size), camera): ((String, u32), &BestThresholds)| {
+        let text = judged_text(search, built, &camera.config)?;
+        Some(format!("{features} in {size}x{size} regions: {text}"))
     };
-    best.into_iter().map(line).collect()
+    best.into_iter().filter_map(line).collect()
 }
 
 /// Returns the best synthesized design of every other organization.

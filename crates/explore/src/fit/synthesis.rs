@@ -204,17 +204,16 @@ impl FitSynthesis<'_> {
     }
 }
 
-/// Sorts designs by their rough cost, and takes the organizations in turn. A limit on a unit may
-/// exclude one organization, and the others must not wait behind all its designs.
-fn sort_by_rough_cost(designs: &mut Vec<(&ExaminedCamera, Design)>, cost_model: RoughCostModel) {
+/// Sorts designs by their rough cost, after the cheapest one of each organization: a limit on a unit
+/// may exclude one organization, and the others must not wait behind all its designs.
+fn sort_by_rough_cost(designs: &mut [(&ExaminedCamera, Design)], cost_model: RoughCostModel) {
     designs.sort_by(|(_, one), (_, other)| cost_model.cost(one).total_cmp(&cost_model.cost(other)));
-    let mut turns = [0; Organization::ALL.len()];
-    let turn = |(examined, design): (_, Design)| {
-        let number = design.organization() as usize;
-        turns[number] += 1;
-        (turns[number], (examined, design))
-    };
-    let mut turned: Vec<_> = designs.drain(..).map(turn).collect();
-    turned.sort_by_key(|(turn, _)| *turn);
-    designs.extend(turned.into_iter().map(|(_, design)| design));
+    let firsts = Organization::ALL
+        .iter()
+        .filter_map(|own| designs.iter().position(|(_, design)| design.organization() == *own));
+    let mut firsts: Vec<usize> = firsts.collect();
+    firsts.sort_unstable();
+    for (to, from) in firsts.into_iter().enumerate() {
+        designs[to..=from].rotate_right(1);
+    }
 }

@@ -131,6 +131,7 @@ fn figures(flips: f64, bits: f64, active: f64) -> FidelityFigures {
         psnr_input: Some(18.0 + 1.4 * bits),
         ssim_ideal: 1.0 - flips,
         ssim_input: 0.7 + bits / 50.0,
+        stale_regions: 0.01,
         staleness: Staleness {
             max: 30.0,
             mean: 0.4 + flips * 20.0,

@@ -17,7 +17,11 @@ const FIGURES: [(&str, &str, &str); 8] = [
     ("IoU", "", "overlap of the active areas; 1 means equal"),
     ("PSNR", "dB", "rendered frame against that of the ideal camera; = means equal"),
     ("SSIM", "", "rendered frame against that of the ideal camera; 1 means equal"),
-    ("stale", "levels", "mean difference of screen and scene in relevant regions, in grey levels"),
+    (
+        "stale",
+        "%",
+        "of the relevant regions, those whose screen differs from the design's own denoised frame",
+    ),
     ("bytes", "/frame", "bytes per frame that leave the array"),
 ];
 
@@ -123,7 +127,7 @@ pub(crate) fn point_row(
         TableCell::number(real_number(figures.active_iou, 4), Some(figures.active_iou)),
         psnr_cell(figures.psnr_ideal),
         TableCell::number(real_number(figures.ssim_ideal, 4), Some(figures.ssim_ideal)),
-        TableCell::number(real_number(figures.staleness.mean, 2), Some(figures.staleness.mean)),
+        TableCell::share(figures.stale_regions),
         TableCell::number(real_number(row.bytes_per_frame, 0), Some(row.bytes_per_frame)),
     ]);
     cells.extend(match row.speed {

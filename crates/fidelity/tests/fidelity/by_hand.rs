@@ -8,7 +8,7 @@ use foveate_camera::{
     SpatialConfig,
 };
 use foveate_engine::Engine;
-use foveate_fidelity::{ErrorTally, Fidelity, FidelityError};
+use foveate_fidelity::{CandidateFrame, ErrorTally, Fidelity, FidelityError, FrameOrder};
 use foveate_frame::{ByteFrame, FramePixels};
 use foveate_scenes::{Scene, SceneParameters};
 
@@ -145,7 +145,12 @@ fn scores_of_fewer_bits_are_scaled_up() {
     (ideal.scores[0][0], candidate.scores[2][0]) = (82.0, 80);
     let mut fidelity = Fidelity::new(&ideal_camera, &candidate_camera).unwrap();
     let input = frame_from_words(&ideal_camera, vec![0; 4]);
-    fidelity.add(&input, &ideal, &candidate, FramePixels::Bytes(&[0; 4])).unwrap();
+    let candidate = CandidateFrame {
+        outcome: &candidate,
+        screen: FramePixels::Bytes(&[0; 4]),
+        denoised: &[0; 4],
+    };
+    fidelity.add(&input, &ideal, candidate, FrameOrder::Later).unwrap();
     let figures = fidelity.tally().figures();
     let observed = figures.scores.iter().map(|score| (&*score.feature, &*score.unit, score.max));
     let expected = [
@@ -195,8 +200,11 @@ fn sizes_types_and_lengths_that_do_not_match_are_refused() {
     let mut fidelity = Fidelity::new(&camera, &camera).unwrap();
     let (ideal, candidate) = (blank_ideal(&camera), blank_outcome(&camera));
     let (input, black) = (frame_from_words(&camera, vec![0; pixels(&camera)]), vec![0_u8; 128]);
+    let denoised = vec![0_u16; 128];
+    let results = |screen| CandidateFrame { outcome: &candidate, screen, denoised: &denoised };
     let mut refused = |input: &ByteFrame, screen: FramePixels<'_>| {
-        fidelity.add(input, &ideal, &candidate, screen).unwrap_err()
+        let candidate = CandidateFrame { outcome: &candidate, screen, denoised: &denoised };
+        fidelity.add(input, &ideal, candidate, FrameOrder::Later).unwrap_err()
     };
     let tall = frame_from_words(&other, vec![0; 144]);
     assert!(matches!(
@@ -211,11 +219,17 @@ fn sizes_types_and_lengths_that_do_not_match_are_refused() {
     assert!(matches!(short, FidelityError::ResultLength { given: 127, expected: 128, .. }));
     let mut less = candidate.clone();
     less.scores[0].pop();
-    let error = fidelity.add(&input, &ideal, &less, FramePixels::Bytes(&black)).unwrap_err();
+    let screen = FramePixels::Bytes(&black);
+    let less = CandidateFrame { outcome: &less, ..results(screen) };
+    let error = fidelity.add(&input, &ideal, less, FrameOrder::Later).unwrap_err();
     assert_eq!(
         error,
         FidelityError::ResultLength { what: "candidate, scores", given: 1, expected: 2 }
     );
     assert_eq!(fidelity.tally().frames(), 0);
-    fidelity.add(&input, &ideal, &candidate, FramePixels::Bytes(&black)).unwrap();
+    let whole = results(screen);
+    let short = CandidateFrame { denoised: &denoised[1..], ..whole };
+    let error = fidelity.add(&input, &ideal, short, FrameOrder::Later).unwrap_err();
+    assert!(error.to_string().contains("denoised"), "{error}");
+    fidelity.add(&input, &ideal, whole, FrameOrder::Later).unwrap();
 }

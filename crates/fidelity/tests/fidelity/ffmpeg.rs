@@ -7,13 +7,13 @@ use std::path::Path;
 use std::process::Command;
 
 use foveate_camera::Camera;
-use foveate_fidelity::{Fidelity, FidelityError, FidelityFigures, FrameSimilarity};
+use foveate_fidelity::{Fidelity, FidelityError, FidelityFigures, FrameOrder, FrameSimilarity};
 use foveate_frame::{ByteFrame, FramePixels};
 use foveate_scenes::{Scene, SceneParameters};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 
-use crate::results::{blank_ideal, blank_outcome, config, greys};
+use crate::results::{blank_ideal, blank_outcome, config, greys, shown_as_denoised};
 
 const FRAMES: u32 = 6;
 
@@ -104,7 +104,9 @@ fn compare(camera: &Camera, input: &[ByteFrame], ideal: &[ByteFrame], shown: &[B
         outcome.rendered = greys(&ideal.borrowed_pixels().to_words());
         let mut single_frame = Fidelity::new(camera, camera).unwrap();
         for fidelity in [&mut whole, &mut single_frame] {
-            fidelity.add(input, &outcome, &blank_outcome(camera), shown.borrowed_pixels()).unwrap();
+            let (blank, mut denoised) = (blank_outcome(camera), Vec::new());
+            let candidate = shown_as_denoised(&blank, shown.borrowed_pixels(), &mut denoised);
+            fidelity.add(input, &outcome, candidate, FrameOrder::Later).unwrap();
         }
         frame_figures.push(single_frame.tally().figures());
     }

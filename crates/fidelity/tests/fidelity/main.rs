@@ -5,6 +5,7 @@
 mod by_hand;
 mod ffmpeg;
 mod likeness;
+mod minima;
 mod naive;
 mod planted;
 mod results;

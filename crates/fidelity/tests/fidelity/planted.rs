@@ -5,11 +5,13 @@
 use foveate_camera::Camera;
 use foveate_camera::RegionAction;
 use foveate_engine::FrameOutcome;
-use foveate_fidelity::{Fidelity, FidelityFigures};
+use foveate_fidelity::{Fidelity, FidelityFigures, FrameOrder};
 use foveate_frame::ByteFrame;
 use foveate_ideal::IdealOutcome;
 
-use crate::results::{blank_ideal, blank_outcome, config, frame_from_words, greys, pixels};
+use crate::results::{
+    blank_ideal, blank_outcome, config, frame_from_words, greys, pixels, shown_as_denoised,
+};
 
 struct PlantedResults {
     ideal: IdealOutcome,
@@ -50,7 +52,9 @@ fn figures(fault: impl FnOnce(&mut PlantedResults)) -> FidelityFigures {
     let PlantedResults { ideal, candidate, screen } = results;
     let mut fidelity = Fidelity::new(&camera, &camera).unwrap();
     let screen: ByteFrame = frame_from_words(&camera, screen);
-    fidelity.add(&input, &ideal, &candidate, screen.borrowed_pixels()).unwrap();
+    let mut denoised = Vec::new();
+    let candidate = shown_as_denoised(&candidate, screen.borrowed_pixels(), &mut denoised);
+    fidelity.add(&input, &ideal, candidate, FrameOrder::Later).unwrap();
     assert_eq!(pixels(&camera), 512);
     fidelity.tally().figures()
 }

@@ -4,8 +4,8 @@
 use foveate_camera::RegionAction;
 use foveate_camera::{Camera, CameraConfig};
 use foveate_engine::{Engine, FrameOutcome};
-use foveate_fidelity::{ErrorTally, Fidelity};
-use foveate_frame::ByteFrame;
+use foveate_fidelity::{CandidateFrame, ErrorTally, Fidelity, FrameOrder};
+use foveate_frame::{ByteFrame, FramePixels};
 use foveate_ideal::{IdealCamera, IdealOutcome};
 
 /// Returns a camera for frames of some size, with regions of side `side` and pixels of `bits` bits.
@@ -30,11 +30,42 @@ pub(crate) fn run(
 ) {
     let mut camera = IdealCamera::new(ideal);
     let mut engine = Engine::new(candidate);
-    for (ideal_frame, candidate_frame) in frames {
-        let outcome = camera.step(ideal_frame).unwrap();
+    for (number, (ideal_frame, candidate_frame)) in frames.iter().enumerate() {
+        let ideal = camera.step(ideal_frame).unwrap();
         engine.step_byte_frame(candidate_frame).unwrap();
-        fidelity.add(ideal_frame, outcome, engine.outcome(), engine.rendered()).unwrap();
+        let denoised = denoised_pixels(&engine);
+        let candidate = CandidateFrame {
+            outcome: engine.outcome(),
+            screen: engine.rendered(),
+            denoised: &denoised,
+        };
+        let order = if number == 0 { FrameOrder::First } else { FrameOrder::Later };
+        fidelity.add(ideal_frame, ideal, candidate, order).unwrap();
     }
+}
+
+/// Returns the denoised frame of an engine, pixel by pixel.
+fn denoised_pixels(engine: &Engine) -> Vec<u16> {
+    let camera = engine.camera();
+    let side = camera.region_size();
+    let mut regions = vec![Vec::new(); camera.regions() as usize];
+    (0..camera.regions()).for_each(|at| engine.denoised_region(at, &mut regions[at as usize]));
+    let pixel = |x: u32, y: u32| {
+        let region = (y / side * camera.columns() + x / side) as usize;
+        regions[region][(y % side * side + x % side) as usize]
+    };
+    let rows = 0..camera.height();
+    rows.flat_map(|y| (0..camera.width()).map(move |x| (x, y))).map(|(x, y)| pixel(x, y)).collect()
+}
+
+/// Returns the results of a candidate whose denoised frame is its screen.
+pub(crate) fn shown_as_denoised<'a>(
+    outcome: &'a FrameOutcome,
+    screen: FramePixels<'a>,
+    denoised: &'a mut Vec<u16>,
+) -> CandidateFrame<'a> {
+    *denoised = screen.to_words();
+    CandidateFrame { outcome, screen, denoised }
 }
 
 /// Returns the tally of one clip whose frames both cameras get.

@@ -2,10 +2,12 @@
 //! The staleness of a screen, with exact numbers by hand.
 
 use foveate_camera::{Camera, CameraConfig, Decimal, ReferencePolicy};
-use foveate_fidelity::{Fidelity, Staleness};
+use foveate_fidelity::{Fidelity, FrameOrder, Staleness};
 use foveate_frame::ByteFrame;
 
-use crate::results::{blank_ideal, blank_outcome, config, frame_from_words, pixels, tally};
+use crate::results::{
+    blank_ideal, blank_outcome, config, frame_from_words, pixels, shown_as_denoised, tally,
+};
 
 /// Returns a camera in which every region is relevant; a pixel has changed if it differs by more
 /// than 2.
@@ -30,9 +32,11 @@ fn a_fade_is_stale_once_it_has_left_the_level_behind() {
     let figures = tally(&ideal, &candidate, &fade(&ideal, 8)).figures();
     let expected = Staleness { max: 7.0, mean: 28.0 / 8.0, longest: 5, share: 5.0 / 8.0 };
     assert_eq!(figures.staleness, expected);
-    // The ideal sends frames 0, 3 and 6.
+    assert_eq!(figures.stale_regions, 5.0 / 8.0);
+    // The ideal sends frames 0, 3 and 6. The first frame does not count as active: every camera
+    // sends it.
     assert_eq!((figures.ideal_active, figures.active), (3.0 / 8.0, 1.0 / 8.0));
-    assert_eq!((figures.missed, figures.false_alarms), (2.0 / 3.0, 0.0));
+    assert_eq!((figures.missed, figures.false_alarms), (1.0, 0.0));
     // The squared differences of the screens are 9 in frames 3 to 5, and 36 in frames 6 and 7.
     let mse: f64 = (3.0 * 9.0 + 2.0 * 36.0) / 8.0;
     assert_eq!(figures.psnr_ideal, Some(10.0 * (255.0 * 255.0 / mse).log10()));
@@ -64,7 +68,9 @@ fn region_staleness(
         let mut ideal = blank_ideal(&camera);
         ideal.srs = vec![srs];
         ideal.denoised[..differing].fill(9.0);
-        fidelity.add(&input, &ideal, &blank_outcome(&camera), input.borrowed_pixels()).unwrap();
+        let (blank, mut denoised) = (blank_outcome(&camera), Vec::new());
+        let candidate = shown_as_denoised(&blank, input.borrowed_pixels(), &mut denoised);
+        fidelity.add(&input, &ideal, candidate, FrameOrder::Later).unwrap();
     }
     fidelity.tally().figures().staleness
 }

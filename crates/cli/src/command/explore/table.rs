@@ -10,8 +10,11 @@ use foveate_explore::{DesignRow, Exploration, ProcessEnergy};
 /// A column: its name, and the function that writes its cells.
 type PointColumn = (&'static str, fn(&DesignRow) -> String);
 
-const COLUMNS: [PointColumn; 20] = [
+const COLUMNS: [PointColumn; 23] = [
     ("flips %", |row| percent(row.figures.action_flips)),
+    ("missed %", |row| percent(row.figures.missed)),
+    ("false %", |row| percent(row.figures.false_alarms)),
+    ("stale %", |row| percent(row.figures.stale_regions)),
     ("SRS %", |row| percent(row.figures.srs_flips)),
     ("TRS %", |row| percent(row.figures.trs_flips)),
     ("IoU", |row| format!("{:.3}", row.figures.active_iou)),
@@ -92,7 +95,9 @@ fn measured_columns(found: &Exploration) -> Vec<PointColumn> {
 }
 
 const NOTE: &str = "flips, SRS, TRS: regions whose decision differs from that of the ideal camera. \
-     IoU: of the active areas. score errors: largest, mean, RMS; edge, corner, segment and \
+     missed: of its active regions, not active in the design; false: of the design's active regions, not active in \
+     the ideal camera; both without the first frame of every clip. stale %: of the relevant regions, those whose screen \
+     differs from the design's own denoised frame. IoU: of the active areas. score errors: largest, mean, RMS; edge, corner, segment and \
      temporal as share of a region's pixels, mad, range, surface and flow in grey levels, variance in \
      their squares. PSNR and SSIM of the screen against the ideal's, and against the input. stale: largest and mean \
      difference of the screen from the scene in relevant regions in grey levels, and frames in a \

@@ -28,8 +28,18 @@ const FRAMES: u32 = 20;
 
 /// Writes the folder `clip` with frames of `width` x 8 pixels, in which a square moves faster and faster over a ramp.
 pub(crate) fn write_clip(folder: &Path, width: u32) {
+    write_frames(folder, width, FRAMES);
+}
+
+/// Writes a longer clip of 8x8 pixels: with four regions, each part of a fit has the 49 regions that a share of
+/// flips needs.
+pub(crate) fn write_long_clip(folder: &Path) {
+    write_frames(folder, 8, 4 * FRAMES);
+}
+
+fn write_frames(folder: &Path, width: u32, frames: u32) {
     std::fs::create_dir(folder.join("clip")).unwrap();
-    for number in 0..FRAMES {
+    for number in 0..frames {
         let left = number * number / 8 % 6;
         let pixel = |x: u32, y: u32| {
             let is_inside = (left..left + 3).contains(&x) && (2..5).contains(&y);

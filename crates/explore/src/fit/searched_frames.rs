@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The frames of the part of all clips that cameras are searched by, with the decisions of the ideal
+//! camera. They are kept in memory if they fit, and read again otherwise.
+
+use foveate_camera::{Camera, RegionAction};
+use foveate_fidelity::{DecisionAreas, DecisionState, FrameOrder, GridCells};
+use foveate_ideal::IdealCamera;
+use foveate_playback::{ClipHalves, PlayedFrame, RunMonitor, RunProgress};
+
+use super::clip_part::ClipPart;
+use super::sampling_error::frame_group;
+use crate::ExploreError;
+use crate::footage::ExplorationFootage;
+use crate::measure::frame_order;
+use crate::row::count_to_f64;
+
+/// The most memory of frames that are kept, in bytes.
+const MAX_KEPT_BYTES: usize = 1 << 28;
+
+/// A frame, and the decisions of the ideal camera.
+pub(super) struct SearchedFrame {
+    pub(super) frame: PlayedFrame,
+    pub(super) order: FrameOrder,
+    pub(super) ideal: Vec<DecisionState>,
+    /// The number of its group of consecutive frames.
+    pub(super) group: usize,
+    /// The share of all searched frames that are seen after this one, 0..=1; infinite for a frame
+    /// that confirms.
+    pub(super) seen: f64,
+}
+
+/// The frames of the searched part.
+pub(super) struct SearchedFrames<'a> {
+    footage: &'a ExplorationFootage<'a>,
+    halves: &'a ClipHalves,
+    pub(super) ideal: Camera,
+    kept: Option<Vec<SearchedFrame>>,
+    /// The areas of all searched frames, and of the frames that confirm, as the ideal decides.
+    pub(super) areas: [DecisionAreas; 2],
+}
+
+/// Returns the bytes of a frame's pixels.
+fn pixels_of(frame: &SearchedFrame) -> usize {
+    let own = &frame.frame.frame;
+    let bytes = if own.bits() <= 8 { 1 } else { 2 };
+    bytes * own.width() as usize * own.height() as usize
+}
+
+impl<'a> SearchedFrames<'a> {
+    /// Reads the frames, and keeps them if they fit into memory.
+    pub(super) fn read(
+        footage: &'a ExplorationFootage<'a>,
+        halves: &'a ClipHalves,
+        ideal: &Camera,
+    ) -> Result<Self, ExploreError> {
+        let ideal = ideal.clone();
+        let mut frames = Self { footage, halves, ideal, kept: None, areas: Default::default() };
+        let (mut kept, mut bytes) = (Some(Vec::new()), 0);
+        let mut areas = [DecisionAreas::default(); 2];
+        let cells = GridCells::new(&frames.ideal, &frames.ideal);
+        let progress = || RunProgress::work("reading the frames of the search".to_owned());
+        frames.read_again(|(half, _)| half, &progress, &mut |frame| {
+            let is_searched = frame.seen <= 1.0;
+            let areas = &mut areas[usize::from(!is_searched)];
+            cells.for_each(|region, _, pixels| {
+                areas.add_pair((frame.ideal[region], frame.ideal[region]), pixels, frame.order);
+            });
+            if !is_searched {
+                return Ok(());
+            }
+            bytes += 2 * frame.ideal.len() + pixels_of(&frame);
+            kept = kept.take().filter(|_| bytes <= MAX_KEPT_BYTES);
+            if let Some(kept) = &mut kept {
+                kept.push(frame);
+            }
+            Ok(())
+        })?;
+        (frames.kept, frames.areas) = (kept, areas);
+        Ok(frames)
+    }
+
+    /// Shows every frame in its order. `progress` is reported, and the hooks may cancel.
+    pub(super) fn for_each(
+        &self,
+        progress: &(dyn Fn() -> RunProgress<'static> + Sync),
+        show: &mut dyn FnMut(&SearchedFrame) -> Result<(), ExploreError>,
+    ) -> Result<(), ExploreError> {
+        let Some(kept) = &self.kept else {
+            let searched = |halves| ClipPart::Search.frames(halves).end;
+            return self.read_again(searched, progress, &mut |frame| show(&frame));
+        };
+        let stage = |_| progress();
+        let monitor = RunMonitor::of_stage(self.footage.hooks, &stage);
+        kept.iter().try_for_each(|frame| {
+            monitor.add_frame();
+            monitor.check()?;
+            show(frame)
+        })
+    }
+
+    /// Reads the frames of every clip up to an end. The frames that confirm belong to no group.
+    fn read_again(
+        &self,
+        end: impl Fn((u64, u64)) -> u64,
+        progress: &(dyn Fn() -> RunProgress<'static> + Sync),
+        take: &mut dyn FnMut(SearchedFrame) -> Result<(), ExploreError>,
+    ) -> Result<(), ExploreError> {
+        let stage = |_| progress();
+        let monitor = RunMonitor::of_stage(self.footage.hooks, &stage);
+        let searched = |halves: (u64, u64)| ClipPart::Search.frames(halves).end;
+        let all: u64 = self.halves.frames.iter().map(|halves| searched(*halves)).sum();
+        let (all, mut number) = (usize::try_from(all).unwrap_or(usize::MAX), 0);
+        for (clip, &halves) in self.halves.frames.iter().enumerate() {
+            let mut camera = IdealCamera::new(&self.ideal);
+            let mut player = self.footage.clips.open(clip)?.limited_to(end(halves));
+            for frame in monitor.watch(&mut player) {
+                let frame = frame?;
+                if frame.is_first() {
+                    camera.reset();
+                }
+                let outcome = camera.step(&frame.frame)?;
+                let state = |region: usize| {
+                    let action: RegionAction = outcome.actions[region];
+                    DecisionState::new(outcome.srs[region], outcome.trs[region], action)
+                };
+                let ideal = (0..outcome.srs.len()).map(state).collect();
+                let (order, mut group, mut seen) = (frame_order(&frame), 0, f64::INFINITY);
+                if frame.number < searched(halves) {
+                    group = frame_group(number, all);
+                    number += 1;
+                    seen = count_to_f64(number as u64) / count_to_f64(all as u64);
+                }
+                take(SearchedFrame { frame, order, ideal, group, seen })?;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The thresholds with which a camera is nearest to the limits on its decisions. Thresholds cost no
+//! area, so every camera is judged with its best ones.
+//!
+//! The levels of pixels are found by a descent: from some start, the search goes to the best of the
+//! levels around it as long as that is better. For each set of levels the best minima follow from one
+//! run over the frames ([`ThresholdRun`]), unless scores depend on decisions; then minima are steps
+//! of the descent, too. A run ends early when no minima can meet the limit on flips any more.
+
+use std::collections::BTreeSet;
+
+use foveate_camera::{CameraConfig, Decimal};
+use foveate_fidelity::{DecisionLimits, ThresholdTable};
+use foveate_playback::{FrameDepths, RunProgress};
+use rayon::prelude::*;
+
+use super::constraints::{ConstraintCheck, Constraints};
+use super::decision_rates::GroupedDecisions;
+use super::searched_frames::{SearchedFrame, SearchedFrames};
+use super::threshold_run::{ThresholdRun, as_f64, three_digits};
+use crate::ExploreError;
+use crate::row::count_to_f64;
+
+/// The number of runs over the frames at the same time.
+const RUNS_AT_ONCE: usize = 32;
+/// The relative changes of a level that are tried, besides changes by 1.
+const LEVEL_CHANGES: [f64; 4] = [0.7, 0.88, 1.14, 1.4];
+/// The shares of the frames after which a run ends if no minima can meet the limit on flips.
+const EARLY_ENDS: [f64; 3] = [0.15, 0.3, 0.6];
+/// The distance from the limits above which a camera is given up.
+const HOPELESS: f64 = 6.0;
+/// The number of minima of a run, and of thresholds of a camera, that are compared with a margin.
+const MAX_ALTERNATIVES: usize = 8;
+
+/// A camera with its best thresholds.
+#[derive(Clone, Debug)]
+pub(super) struct BestThresholds {
+    pub(super) config: CameraConfig,
+    /// The constraints on the rates to expect of other frames.
+    pub(super) checks: Vec<ConstraintCheck>,
+    /// True if the flips are only a lower bound, because the run ended early.
+    pub(super) is_lower_bound: bool,
+    /// The distance from the limits: the largest ratio of a rate and its limit.
+    pub(super) distance: f64,
+}
+
+/// The search of thresholds.
+pub(super) struct ThresholdSearch<'a> {
+    frames: &'a SearchedFrames<'a>,
+    constraints: &'a Constraints,
+    limits: DecisionLimits,
+    /// The number of cameras that were compared.
+    pub(super) compared: usize,
+}
+
+/// The descent of one camera.
+struct ThresholdDescent {
+    /// The nearest thresholds, the best ones first.
+    nearest: Vec<BestThresholds>,
+    /// The cameras that are run next.
+    next: Vec<CameraConfig>,
+    /// The cameras that were run, without their minima if these are free.
+    tried: BTreeSet<String>,
+}
+
+impl<'a> ThresholdSearch<'a> {
+    pub(super) fn new(frames: &'a SearchedFrames<'a>, constraints: &'a Constraints) -> Self {
+        let &Constraints { max_flips, max_missed, max_false_alarms, .. } = constraints;
+        let limits =
+            DecisionLimits { flips: max_flips, missed: max_missed, false_alarms: max_false_alarms };
+        Self { frames, constraints, limits, compared: 0 }
+    }
+
+    /// Returns the nearest thresholds of each camera, the best ones first. Its descent begins at the
+    /// best of some starts. The list is empty where no start is valid.
+    pub(super) fn run(
+        &mut self,
+        starts: Vec<Vec<CameraConfig>>,
+    ) -> Result<Vec<Vec<BestThresholds>>, ExploreError> {
+        let begin = |next| ThresholdDescent { nearest: Vec::new(), next, tried: BTreeSet::new() };
+        let mut descents: Vec<ThresholdDescent> = starts.into_iter().map(begin).collect();
+        loop {
+            let mut wanted = Vec::new();
+            for (number, descent) in descents.iter_mut().enumerate() {
+                for config in std::mem::take(&mut descent.next) {
+                    if descent.tried.insert(run_key(&config))
+                        && let Ok(camera) = config.validate()
+                    {
+                        wanted.push((number, camera));
+                    }
+                }
+            }
+            if wanted.is_empty() {
+                return Ok(descents.into_iter().map(|descent| descent.nearest).collect());
+            }
+            let mut has_improved = vec![false; descents.len()];
+            for some in wanted.chunks(RUNS_AT_ONCE) {
+                let run = |(_, camera): &(_, _)| ThresholdRun::new(&self.frames.ideal, camera);
+                let runs = self.run_cameras(some.iter().map(run).collect())?;
+                let nearest: Vec<_> = runs.par_iter().map(|run| self.nearest(run)).collect();
+                for (&(number, _), (nearest, compared)) in some.iter().zip(nearest) {
+                    self.compared += compared;
+                    has_improved[number] |= descents[number].add(nearest);
+                }
+            }
+            for (descent, has_improved) in descents.iter_mut().zip(has_improved) {
+                let best = descent.nearest.first();
+                if let Some(best) = best.filter(|best| has_improved && best.distance < HOPELESS) {
+                    descent.next = neighbor_cameras(&best.config);
+                }
+            }
+        }
+    }
+
+    /// Returns the best minima with the levels of one camera.
+    #[cfg(test)]
+    pub(super) fn run_alone(&self, config: &CameraConfig) -> Result<BestThresholds, ExploreError> {
+        let run = ThresholdRun::new(&self.frames.ideal, &config.validate()?);
+        let runs = self.run_cameras(vec![run])?;
+        Ok(self.nearest(&runs[0]).0.remove(0))
+    }
+
+    /// Runs cameras over the frames.
+    fn run_cameras(&self, mut runs: Vec<ThresholdRun>) -> Result<Vec<ThresholdRun>, ExploreError> {
+        let compared = self.compared;
+        let progress = move || RunProgress::work(format!("comparing cameras, {compared} so far"));
+        let mut ends = EARLY_ENDS.iter().peekable();
+        self.frames.for_each(&progress, &mut |searched: &SearchedFrame| {
+            let depths = runs.iter().map(|run| run.camera.pixel_bits());
+            let depths = FrameDepths::from_frame(&searched.frame, depths)?;
+            let is_end = ends.next_if(|end| searched.seen >= **end).is_some();
+            let running = runs.par_iter_mut().filter(|run| run.ended_at.is_none());
+            running.try_for_each(|run| {
+                run.add_frame(searched, &depths)?;
+                let cannot = |limit| self.share_of_all(run.least_flips()) > limit;
+                if is_end && self.limits.flips.is_some_and(cannot) {
+                    run.ended_at = Some(searched.seen);
+                }
+                Ok::<_, ExploreError>(())
+            })
+        })?;
+        Ok(runs)
+    }
+
+    /// Returns the share of the area of all searched frames.
+    fn share_of_all(&self, area: u64) -> f64 {
+        count_to_f64(area) / count_to_f64(self.frames.areas[0].all.max(1))
+    }
+
+    /// Returns the nearest minima of a run, the best ones first, and the number of cameras that were
+    /// compared.
+    fn nearest(&self, run: &ThresholdRun) -> (Vec<BestThresholds>, usize) {
+        let sides = (self.frames.ideal.region_size(), run.camera.region_size());
+        let (found, compared) = run.nearest(&self.limits, MAX_ALTERNATIVES);
+        let judged = |(config, decisions): (CameraConfig, GroupedDecisions)| {
+            let rates = decisions.rates(sides);
+            let all = [rates.flips, rates.missed, rates.false_alarms];
+            if run.ended_at.is_none() {
+                let distance = self.limits.distance(all.map(|rate| rate.expected));
+                let checks = self.constraints.check_rates(&rates);
+                return BestThresholds { config, checks, is_lower_bound: false, distance };
+            }
+            // The other frames may have no flips. The distance is that of the frames so far.
+            let least = self.share_of_all(run.least_flips());
+            let flips = ConstraintCheck::check_flips(least, self.limits.flips.unwrap_or(1.0));
+            let distance = self.limits.distance(all.map(|rate| rate.share));
+            BestThresholds { config, checks: vec![flips], is_lower_bound: true, distance }
+        };
+        let mut nearest: Vec<BestThresholds> = found.into_iter().map(judged).collect();
+        nearest.sort_by(|one, other| one.distance.total_cmp(&other.distance));
+        (nearest, compared)
+    }
+}
+
+impl ThresholdDescent {
+    /// Adds thresholds. Returns true if one is better than all before.
+    fn add(&mut self, found: Vec<BestThresholds>) -> bool {
+        let least = self.nearest.first().map_or(f64::INFINITY, |best| best.distance);
+        self.nearest.extend(found);
+        self.nearest.sort_by(|one, other| one.distance.total_cmp(&other.distance));
+        self.nearest.truncate(MAX_ALTERNATIVES);
+        self.nearest.first().is_some_and(|best| best.distance < least)
+    }
+}
+
+/// Returns a text that is equal for cameras whose runs give the same table.
+fn run_key(config: &CameraConfig) -> String {
+    let mut config = config.clone();
+    if ThresholdTable::has_free_scores(&config) {
+        config.temporal.min_count = 0;
+        config.spatial.iter_mut().for_each(|entry| entry.min_score = None);
+    }
+    config.to_toml()
+}
+
+/// Returns the cameras with one other level, and with one other minimum if scores depend on
+/// decisions.
+fn neighbor_cameras(config: &CameraConfig) -> Vec<CameraConfig> {
+    let mut found = Vec::new();
+    let mut with = |change: &dyn Fn(&mut CameraConfig)| {
+        let mut other = config.clone();
+        change(&mut other);
+        found.push(other);
+    };
+    let level = config.temporal.level_or_default(config.frame.pixel_bits);
+    levels_around(level)
+        .iter()
+        .for_each(|&level| with(&|config| config.temporal.level = Some(level)));
+    let has_free_scores = ThresholdTable::has_free_scores(config);
+    if !has_free_scores {
+        for count in levels_around(config.temporal.min_count) {
+            with(&|config| config.temporal.min_count = count);
+        }
+    }
+    for (number, entry) in config.spatial.iter().enumerate() {
+        for level in entry.level.map(levels_around).unwrap_or_default() {
+            with(&|config| config.spatial[number].level = Some(level));
+        }
+        let Some(score) = entry.min_score.filter(|_| !has_free_scores) else { continue };
+        let scores: Vec<Option<Decimal>> = match score.as_whole().map(u32::try_from) {
+            Some(Ok(hits)) if entry.feature.score_unit().is_count() => levels_around(hits)
+                .iter()
+                .map(|&hits| Some(Decimal::from_whole(hits.into())))
+                .collect(),
+            _ => LEVEL_CHANGES.map(|change| three_digits(as_f64(score) * change)).to_vec(),
+        };
+        for score in scores.into_iter().flatten() {
+            with(&|config| config.spatial[number].min_score = Some(score));
+        }
+    }
+    found
+}
+
+/// Returns the levels around a level.
+fn levels_around(level: u32) -> Vec<u32> {
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small number")]
+    let changed = LEVEL_CHANGES.map(|change| (f64::from(level) * change).round() as u32);
+    let mut found = changed.to_vec();
+    found.extend([level.saturating_sub(1), level + 1]);
+    found.retain(|other| *other != level);
+    found.sort_unstable();
+    found.dedup();
+    found
+}
