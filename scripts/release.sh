@@ -4,7 +4,7 @@
 # step that has passed on this commit is not run again, so an interrupted run continues.
 #
 #   scripts/release.sh                    all steps
-#   scripts/release.sh STEP...            some of them
+#   scripts/release.sh STEP...            some of them; whole:PACKAGE is the part of the step `whole` that tests one package
 #   scripts/release.sh --changed [BASE]   those that the table in CONTRIBUTING.md names for the files that have changed since the commit
 #                                         BASE; without BASE, since the last recorded run of each step
 #   scripts/release.sh --list             lists the steps
@@ -44,8 +44,10 @@ step_cosim() {
 }
 step_whole() {
     # The whole lists of faults, netlists and designs, of which the tests otherwise take a part, and the tests that take long. No test is
-    # chosen by its name, because a test that no name fits would never take its whole list.
-    FOVEATE_WHOLE=1 cargo test --workspace --locked -- --include-ignored
+    # chosen by its name, because a test that no name fits would never take its whole list. whole:PACKAGE is the part of a package.
+    local packages=(--workspace)
+    [ $# -eq 0 ] || packages=(--package "$1")
+    FOVEATE_WHOLE=1 cargo test "${packages[@]}" --locked -- --include-ignored
 }
 step_python() { FOVEATE_WHOLE=1 scripts/python.sh --torch --test; }
 step_page() { scripts/web.sh --test; }
@@ -162,7 +164,7 @@ case ${1:-} in
 --list) printf '%s\n' "${steps[@]}" && exit 0 ;;
 esac
 for name in "$@"; do
-    declare -F "step_$name" >/dev/null || { echo "release: there is no step $name; scripts/release.sh --list shows them" >&2; exit 2; }
+    declare -F "step_${name%%:*}" >/dev/null || { echo "release: there is no step $name; scripts/release.sh --list shows them" >&2; exit 2; }
 done
 [ -z "$(git status --porcelain --untracked-files=no -- . ":!$record")" ] || { echo "release: commit first; a log belongs to a commit" >&2; exit 2; }
 mkdir -p "$log"
@@ -181,7 +183,9 @@ for name in "${selected[@]}"; do
     began=$SECONDS
     # This is not a condition of `if`, because `set -e` would not hold inside of the step then.
     set +e
-    (set -ex && "step_$name") >"$log/$name.log" 2>&1
+    part=()
+    [ "$name" = "${name#*:}" ] || part=("${name#*:}")
+    (set -ex && "step_${name%%:*}" "${part[@]}") >"$log/$name.log" 2>&1
     ended=$?
     set -e
     if [ $ended -eq 0 ]; then

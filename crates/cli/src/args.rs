@@ -92,7 +92,7 @@ pub(crate) enum Command {
     Fit(Box<FitArgs>),
     Infer(InferArgs),
     Link(LinkArgs),
-    Stress(StressArgs),
+    Stress(Box<StressArgs>),
     Bench(BenchArgs),
     Presets(PresetsArgs),
     Completions(CompletionsArgs),
@@ -114,6 +114,12 @@ pub(crate) struct DesignArgs {
 }
 
 impl DesignArgs {
+    /// Returns the configuration of a task: that of a file, or preset `paper`.
+    pub(crate) fn task(file: Option<&Path>) -> Result<DesignConfig, CliError> {
+        let preset = file.is_none().then(|| "paper".to_owned());
+        Self { config: file.map(Path::to_owned), preset, overrides: Vec::new() }.config()
+    }
+
     /// Returns the configuration with the changes of `--set`. Without a file or a preset, it starts
     /// from the defaults.
     pub(crate) fn config(&self) -> Result<DesignConfig, CliError> {

@@ -35,7 +35,7 @@ pub fn compare(
     let monitor = &RunMonitor::of_frames(hooks, player.frames());
     let clips = &RunClips::from_player(player, &[])?;
     let parts = std::slice::from_ref(&(0..u64::MAX));
-    let clip = MeasuredClip { clips, clip: 0, ideal, parts, monitor };
+    let clip = MeasuredClip { clips, clip: 0, ideal, parts, disturbance: None, monitor };
     let measured = clip.measure(&[camera])?.pop().and_then(|mut parts| parts.pop());
     let CameraMeasurement { tally, problem, .. } =
         measured.expect("one camera and one part are measured");

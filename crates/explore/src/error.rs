@@ -7,6 +7,7 @@ use foveate_design::ConfigError;
 use foveate_energy::EnergyError;
 use foveate_estimate::{EstimateError, SiliconError};
 use foveate_fidelity::FidelityError;
+use foveate_frame::FrameError;
 use foveate_ideal::IdealError;
 use foveate_inference::InferenceError;
 use foveate_link::LinkError;
@@ -19,6 +20,15 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ExploreError {
+    /// A frame cannot be made.
+    #[error(transparent)]
+    Frame(#[from] FrameError),
+    /// A frame could not be compressed.
+    #[error("a frame cannot be compressed as JPEG: {reason}")]
+    Jpeg {
+        /// The reason.
+        reason: String,
+    },
     /// The ideal camera is active too rarely for a limit on missed regions.
     #[error(
         "undecided: the ideal camera has {} active regions in the searched frames and {} in the frames that confirm, without the first frame of every clip, and --max-missed needs at least 49 in each; use more frames or other thresholds, or give --max-missed 100%",

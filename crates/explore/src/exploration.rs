@@ -18,6 +18,9 @@ pub struct Exploration {
     pub clips: Vec<ClipRow>,
     /// The width and height of a frame in pixels.
     pub size: (u32, u32),
+    /// The disturbance of the frames that the designs saw, as `name=value`, if there was one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub disturbance: Option<String>,
     /// The range of the luma of clips that are video: `coded` or `full`.
     pub luma: &'static str,
     /// The ideal camera that designs are compared with, as TOML.

@@ -35,7 +35,8 @@ impl<'a> ExplorationWork<'a> {
     ) -> Result<Self, ExploreError> {
         let space = request.space;
         let footage =
-            ExplorationFootage::new((request.inputs, &[]), request.input, &space.ideal, hooks)?;
+            ExplorationFootage::new((request.inputs, &[]), request.input, &space.ideal, hooks)?
+                .disturbed(request.disturbance);
         let (width, height) = footage.size;
         let (points, refused) = space.points_of_combinations(some, width, height);
         if points.is_empty() {

@@ -125,6 +125,7 @@ impl PointResults {
             program: concat!("foveate ", env!("CARGO_PKG_VERSION")).to_owned(),
             clips,
             size: work.footage.size,
+            disturbance: request.disturbance.map(|own| own.to_string()),
             luma: work.footage.clips.options().luma.name(),
             ideal: space.ideal.to_toml(),
             clock_mhz: space.clock_mhz,

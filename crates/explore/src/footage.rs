@@ -9,10 +9,10 @@ use foveate_camera::{Camera, CameraConfig};
 use foveate_footage::InputOptions;
 use foveate_playback::{ClipReading, RunClips, RunHooks, RunMonitor, RunProgress};
 
-use crate::ExploreError;
 use crate::measure::{CameraMeasurement, MeasuredClip};
 use crate::progress::measuring_progress;
 use crate::store::{MeasurementStore, clip_identity, measurement_key};
+use crate::{Disturbance, ExploreError};
 
 /// The number of designs that see a clip together. More designs share the work of decoding and of
 /// the ideal camera; fewer designs lose less if the run is interrupted.
@@ -44,6 +44,8 @@ pub(crate) struct ExplorationFootage<'a> {
     /// The width and height of all frames in pixels.
     pub(crate) size: (u32, u32),
     ideal: &'a CameraConfig,
+    /// The disturbance of the frames that cameras see.
+    pub(crate) disturbance: Option<Disturbance>,
     pub(crate) hooks: &'a dyn RunHooks,
 }
 
@@ -58,12 +60,17 @@ impl<'a> ExplorationFootage<'a> {
     ) -> Result<Self, ExploreError> {
         let clips = RunClips::new(inputs, boxes, ideal, input)?;
         let size = clips.common_format(ClipReading::Repeated)?.size;
-        Ok(Self { clips, size, ideal, hooks })
+        Ok(Self { clips, size, ideal, disturbance: None, hooks })
     }
 
     /// Returns the same clips with another ideal camera for the same frames.
     pub(crate) fn with_ideal(self, ideal: &'a CameraConfig) -> Self {
         Self { ideal, ..self }
+    }
+
+    /// Returns the same clips with a disturbance of the frames that cameras see.
+    pub(crate) fn disturbed(self, disturbance: Option<Disturbance>) -> Self {
+        Self { disturbance, ..self }
     }
 
     /// Returns the measurement of every clip and camera over the whole clip.
@@ -118,8 +125,9 @@ impl<'a> ExplorationFootage<'a> {
     /// Returns a text that identifies a clip, which is given by its number, and the TOML of the
     /// ideal camera. All measurements of the clip depend on both.
     pub(crate) fn clip_texts(&self, clip: usize) -> (String, String) {
-        let clip = clip_identity(&self.clips.clips()[clip], self.clips.options());
-        (clip, self.ideal.to_toml())
+        let mut text = clip_identity(&self.clips.clips()[clip], self.clips.options());
+        text.extend(self.disturbance.map(|own| format!("\n{own} of clip {clip}")));
+        (text, self.ideal.to_toml())
     }
 
     /// Returns the number of bits per pixel.
@@ -164,6 +172,7 @@ impl<'a> ExplorationFootage<'a> {
     ) -> Result<Vec<Vec<CameraMeasurement>>, ExploreError> {
         let monitor = &RunMonitor::of_stage(self.hooks, stage);
         let (clips, ideal) = (&self.clips, self.ideal);
-        MeasuredClip { clips, clip, ideal, parts, monitor }.measure(cameras)
+        let disturbance = self.disturbance;
+        MeasuredClip { clips, clip, ideal, parts, disturbance, monitor }.measure(cameras)
     }
 }

@@ -11,6 +11,8 @@
 
 mod compare;
 mod cost;
+mod disturbance;
+mod disturbed_design;
 mod error;
 mod exploration;
 mod exploration_work;
@@ -38,6 +40,8 @@ mod unit;
 
 pub use compare::{CameraComparison, compare};
 pub use cost::{DesignArea, Synthesizer};
+pub use disturbance::Disturbance;
+pub use disturbed_design::{DisturbedRow, disturb_design};
 pub use error::ExploreError;
 pub use exploration::{ClipRow, Exploration};
 pub use explore::explore;

@@ -16,8 +16,9 @@ use foveate_playback::{ClipPlayer, FrameDepths, PlayedFrame, RunClips, RunMonito
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::ExploreError;
+use crate::disturbance::{ClipDisturbance, DisturbedFrame};
 use crate::objects::ObjectCounts;
+use crate::{Disturbance, ExploreError};
 
 /// The number of frames that are ready before the engines need them.
 const FRAMES_AHEAD: usize = 2;
@@ -62,12 +63,15 @@ pub(crate) struct MeasuredClip<'a> {
     pub(crate) ideal: &'a CameraConfig,
     /// The parts of the clip that are measured separately, as ranges of frame numbers.
     pub(crate) parts: &'a [Range<u64>],
+    /// The disturbance of the frames that cameras see.
+    pub(crate) disturbance: Option<Disturbance>,
     pub(crate) monitor: &'a RunMonitor<'a>,
 }
 
 /// A frame and the outcome of the ideal camera for it.
 struct IdealFrame {
     frame: PlayedFrame,
+    disturbed: DisturbedFrame,
     ideal: IdealOutcome,
     objects: Vec<Rect>,
 }
@@ -133,10 +137,9 @@ impl MeasuredClip<'_> {
             self.monitor.check()?;
             let part = self.parts.iter().position(|part| part.contains(&ideal_frame.frame.number));
             let Some(part) = part else { continue };
-            let frames = FrameDepths::from_frame(
-                &ideal_frame.frame,
-                candidates.iter().map(|one| one.camera.pixel_bits()),
-            )?;
+            let depths = candidates.iter().map(|one| one.camera.pixel_bits());
+            let shown = ideal_frame.disturbed.shown.as_ref();
+            let frames = FrameDepths::from_disturbed(&ideal_frame.frame, shown, depths)?;
             candidates
                 .par_iter_mut()
                 .try_for_each(|one| one.add_frame(&ideal_frame, &frames, part))?;
@@ -154,18 +157,21 @@ impl MeasuredClip<'_> {
         give: &SyncSender<IdealFrame>,
     ) -> Result<Option<String>, ExploreError> {
         let mut camera = IdealCamera::new(ideal);
+        let mut disturbance = ClipDisturbance::new(self.disturbance, self.clip);
         for frame in &mut player {
             let frame = frame?;
             if frame.is_first() {
                 camera.reset();
             }
-            let ideal = camera.step(&frame.frame)?.clone();
+            let disturbed = disturbance.disturb(&frame.frame, frame.number)?;
+            let truth = disturbed.truth.as_ref().unwrap_or(&frame.frame);
+            let ideal = camera.step(truth)?.clone();
             let objects = match frame.kind {
                 SourceKind::Clip if frame.is_first() => None,
                 SourceKind::Clip | SourceKind::Set => self.clips.objects(self.clip, &frame)?,
             };
             let objects = objects.unwrap_or_default();
-            if give.send(IdealFrame { frame, ideal, objects }).is_err() {
+            if give.send(IdealFrame { frame, disturbed, ideal, objects }).is_err() {
                 return Ok(None);
             }
         }
@@ -192,7 +198,7 @@ impl MeasuredCamera {
         frames: &FrameDepths<'_>,
         part: usize,
     ) -> Result<(), ExploreError> {
-        let IdealFrame { frame, ideal, objects } = ideal_frame;
+        let IdealFrame { frame, disturbed, ideal, objects } = ideal_frame;
         if frame.kind == SourceKind::Set {
             self.fidelity[part].next_clip();
         }
@@ -202,7 +208,8 @@ impl MeasuredCamera {
         self.objects[part].add_frame(&self.camera, objects, &outcome.active);
         let candidate = CandidateFrame { outcome, screen, denoised: &self.denoised.0 };
         let order = frame_order(frame);
-        self.frames[part].push(self.fidelity[part].add(&frame.frame, ideal, candidate, order)?);
+        let truth = disturbed.truth.as_ref().unwrap_or(&frame.frame);
+        self.frames[part].push(self.fidelity[part].add(truth, ideal, candidate, order)?);
         Ok(())
     }
 
@@ -272,7 +279,14 @@ mod tests {
             let hooks = PatientHooks { patience, questions: AtomicUsize::new(0) };
             let monitor = &RunMonitor::of_frames(&hooks, None);
             let parts = std::slice::from_ref(&(0..u64::MAX));
-            let clip = MeasuredClip { clips: &clips, clip: 0, ideal: &ideal, parts, monitor };
+            let clip = MeasuredClip {
+                clips: &clips,
+                clip: 0,
+                ideal: &ideal,
+                parts,
+                disturbance: None,
+                monitor,
+            };
             clip.measure(&[ideal.validate().unwrap()])
         };
         let ended_early = measured(usize::MAX).unwrap();

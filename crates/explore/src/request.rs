@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use foveate_footage::InputOptions;
 
-use crate::{DesignSpace, Synthesizer, TargetProcess};
+use crate::{DesignSpace, Disturbance, Synthesizer, TargetProcess};
 
 /// The request of an exploration.
 #[derive(Clone, Debug)]
@@ -17,6 +17,8 @@ pub struct ExploreRequest<'a> {
     pub inputs: &'a [PathBuf],
     /// The options for reading the inputs.
     pub input: &'a InputOptions,
+    /// A disturbance of the frames that the designs see; the ideal camera sees the clips as they are.
+    pub disturbance: Option<Disturbance>,
     /// The synthesis of the designs; without it the figures have no areas.
     pub synthesis: Option<SynthesisRequest<'a>>,
 }

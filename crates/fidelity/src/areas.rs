@@ -60,6 +60,8 @@ pub enum FrameOrder {
 /// The areas that are active, in pixels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ActiveAreas {
+    /// The area of all regions.
+    pub all: u64,
     /// The area that is active in the ideal.
     pub ideal: u64,
     /// The area that is active in the candidate.
@@ -70,6 +72,7 @@ pub struct ActiveAreas {
 
 impl ActiveAreas {
     fn add(&mut self, other: &Self) {
+        self.all += other.all;
         self.ideal += other.ideal;
         self.candidate += other.candidate;
         self.both += other.both;
@@ -79,8 +82,6 @@ impl ActiveAreas {
 /// The areas in pixels, summed over frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct DecisionAreas {
-    /// The area of all regions.
-    pub all: u64,
     /// The area where SRS differs.
     pub srs: u64,
     /// The area where TRS differs.
@@ -116,12 +117,12 @@ impl DecisionAreas {
         let area_if = |yes: bool| if yes { area } else { 0 };
         let differs = |mask: u8| area_if((ideal.0 ^ candidate.0) & mask != 0);
         let active = ActiveAreas {
+            all: area,
             ideal: area_if(ideal.is_active()),
             candidate: area_if(candidate.is_active()),
             both: area_if(ideal.is_active() && candidate.is_active()),
         };
         self.add(&Self {
-            all: area,
             srs: differs(SRS),
             trs: differs(TRS),
             action: differs(ACTION),
@@ -133,7 +134,6 @@ impl DecisionAreas {
 
     /// Adds the areas of other frames.
     pub fn add(&mut self, other: &Self) {
-        self.all += other.all;
         self.srs += other.srs;
         self.trs += other.trs;
         self.action += other.action;
@@ -145,7 +145,7 @@ impl DecisionAreas {
     /// Returns the share of the area where the action differs, 0..=1; 0 without frames.
     #[must_use]
     pub fn flips(&self) -> f64 {
-        ratio(self.action, self.all, 0.0)
+        ratio(self.action, self.active.all, 0.0)
     }
 
     /// Returns the share of the ideal's active area that is not active in the candidate, 0..=1,

@@ -107,7 +107,7 @@ impl ErrorTally {
     #[must_use]
     pub fn figures(&self) -> FidelityFigures {
         let Self { frames, areas, stale: staleness, .. } = self;
-        let (pixels, active) = (&areas.all, &areas.active);
+        let (pixels, active) = (&areas.active.all, &areas.active);
         let share = |area: u64| ratio(area, *pixels, 0.0);
         let union = active.ideal + active.candidate - active.both.min(active.ideal);
         FidelityFigures {

@@ -48,6 +48,12 @@ impl ErrorTally {
         self.stale_to_own.add(&other.stale_to_own);
     }
 
+    /// Returns the areas of the decisions.
+    #[must_use]
+    pub fn decisions(&self) -> &DecisionAreas {
+        &self.areas
+    }
+
     /// Returns the number of frames that were added.
     #[must_use]
     pub fn frames(&self) -> u64 {

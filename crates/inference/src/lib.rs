@@ -58,6 +58,6 @@ pub use summary::{
 };
 pub use traffic::FrameTraffic;
 pub use whole_frames::{
-    ConfidenceIntervals, GroundTruthFigures, NOISE_LEVELS, NoiseAgreement, NoiseComparison,
-    WholeFrameAgreement, has_class_map, wilson_interval,
+    ConfidenceIntervals, GaussianNoise, GroundTruthFigures, NOISE_LEVELS, NoiseAgreement,
+    NoiseComparison, WholeFrameAgreement, has_class_map, wilson_interval,
 };

@@ -24,12 +24,26 @@ impl<'a> FrameDepths<'a> {
         own: &'a PlayedFrame,
         depths: impl IntoIterator<Item = u32>,
     ) -> Result<Self, PlaybackError> {
+        Self::from_disturbed(own, None, depths)
+    }
+
+    /// Does the same with other pixels in place of the frame's, if there are any.
+    ///
+    /// # Errors
+    /// Fails if a depth is out of range.
+    pub fn from_disturbed(
+        own: &'a PlayedFrame,
+        disturbed: Option<&ByteFrame>,
+        depths: impl IntoIterator<Item = u32>,
+    ) -> Result<Self, PlaybackError> {
         let mut others = BTreeMap::new();
+        let shown = disturbed.unwrap_or(&own.frame);
         for bits in depths {
-            if bits != own.frame.bits() && !others.contains_key(&bits) {
-                others.insert(bits, at_depth(&own.frame, bits)?);
+            if bits != shown.bits() && !others.contains_key(&bits) {
+                others.insert(bits, at_depth(shown, bits)?);
             }
         }
+        others.extend(disturbed.map(|frame| (frame.bits(), frame.clone())));
         Ok(Self { own, others })
     }
 

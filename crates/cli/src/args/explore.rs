@@ -4,6 +4,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use foveate_explore::Disturbance;
 
 use super::check::FramesPerSecond;
 use super::input::InputArgs;
@@ -33,6 +34,11 @@ pub(crate) struct ExploreArgs {
     /// Folder to write, or to continue
     #[arg(long, short, value_name = "DIR", required_unless_present_any = ["list", "print"])]
     pub(crate) output: Option<PathBuf>,
+    /// Show the designs a disturbed clip, while the ideal camera sees the clip as it is: noise=LEVELS,
+    /// jpeg=QUALITY, flicker=LEVELS, gain=PERCENT, saturation=FACTOR, shake=PIXELS or still=LEVELS (the
+    /// first frame, with noise)
+    #[arg(long, value_name = "KIND=VALUE")]
+    pub(crate) disturb: Option<Disturbance>,
     /// Skip synthesis; Yosys is then not needed
     #[arg(long, conflicts_with = "liberty")]
     pub(crate) no_area: bool,

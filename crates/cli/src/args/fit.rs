@@ -4,7 +4,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use foveate_explore::{Constraints, CostObjective, NetworkGoal};
+use foveate_explore::{Constraints, CostObjective, Disturbance, NetworkGoal};
 use foveate_inference::VisionOptions;
 
 use super::check::{ClockFrequency, FramesPerSecond};
@@ -55,6 +55,11 @@ pub(crate) struct FitArgs {
     /// Ground-truth boxes for --min-recall, in a format of `foveate analyze recall`
     #[arg(long, value_name = "FILE", requires = "min_recall")]
     pub(crate) boxes: Vec<PathBuf>,
+    /// Show the designs a disturbed clip, while the ideal camera sees the clip as it is: noise=LEVELS,
+    /// jpeg=QUALITY, flicker=LEVELS, gain=PERCENT, saturation=FACTOR, shake=PIXELS or still=LEVELS (the
+    /// first frame, with noise)
+    #[arg(long, value_name = "KIND=VALUE", conflicts_with = "network")]
+    pub(crate) disturb: Option<Disturbance>,
     /// Cost that the search minimizes; by default bytes with --network, and area without it
     #[arg(long, value_enum, value_name = "COST")]
     cheapest: Option<DesignCost>,

@@ -38,8 +38,13 @@ pub(crate) fn run(args: &ExploreArgs) -> Result<(), CliError> {
     let input = args.input.options(ImageRelation::Clip);
     warn_about_inputs(&args.inputs, &input);
     let terminal = RunTerminal::new(args.quiet)?;
-    let mut request =
-        ExploreRequest { space: &space, inputs: &args.inputs, input: &input, synthesis: None };
+    let mut request = ExploreRequest {
+        space: &space,
+        inputs: &args.inputs,
+        input: &input,
+        disturbance: args.disturb,
+        synthesis: None,
+    };
     if args.plan {
         return units::print_plan(&request, folder, &terminal);
     }

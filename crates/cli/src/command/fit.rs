@@ -36,6 +36,7 @@ pub(crate) fn run(args: &FitArgs) -> Result<(), CliError> {
         task: &task,
         inputs: &args.inputs,
         input: &input,
+        disturbance: args.disturb,
         constraints: &args.constraints.constraints(network.is_some()),
         clock_hz: args.constraints.clock.map(|clock| clock.0),
         target_active: args.constraints.target_active,

@@ -13,6 +13,7 @@ mod crate_map;
 mod dataset;
 mod decode;
 mod design;
+mod disturbances;
 mod endless;
 mod explore;
 mod footage;

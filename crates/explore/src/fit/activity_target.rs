@@ -104,6 +104,7 @@ mod tests {
                 input: &InputOptions { frames: Some(16), ..InputOptions::default() },
                 constraints: &Constraints::default(),
                 clock_hz: None,
+                disturbance: None,
                 target_active: Some(wanted),
                 boxes: &[],
                 cheapest: CostObjective::Area,

@@ -55,7 +55,9 @@ impl GroupedDecisions {
         };
         let by_count = |share, regions| share_of_others(share, regions)[1];
         DecisionRates {
-            flips: rate(DecisionAreas::flips, regions(all.all, ideal_side), |share, _| share),
+            flips: rate(DecisionAreas::flips, regions(all.active.all, ideal_side), |share, _| {
+                share
+            }),
             missed: rate(DecisionAreas::missed, regions(all.later.ideal, ideal_side), by_count),
             false_alarms: rate(
                 DecisionAreas::false_alarms,
@@ -84,8 +86,9 @@ mod tests {
     #[test]
     fn rates_have_the_worse_of_two_margins() {
         let group = |action: u64, both: u64, candidate: u64| {
-            let later = ActiveAreas { ideal: 4 * 50, candidate: 4 * candidate, both: 4 * both };
-            DecisionAreas { all: 400, action: 4 * action, later, ..DecisionAreas::default() }
+            let later =
+                ActiveAreas { all: 400, ideal: 4 * 50, candidate: 4 * candidate, both: 4 * both };
+            DecisionAreas { action: 4 * action, active: later, later, ..DecisionAreas::default() }
         };
         let decisions = GroupedDecisions(vec![group(0, 50, 50), group(10, 45, 65)]);
         let DecisionRates { flips, missed, false_alarms } = decisions.rates((2, 2));
@@ -104,10 +107,10 @@ mod tests {
 
     #[test]
     fn frames_are_in_groups_of_neighbors() {
-        let frame = |all: u64| DecisionAreas { all, ..DecisionAreas::default() };
+        let frame = |srs: u64| DecisionAreas { srs, ..DecisionAreas::default() };
         let frames: Vec<_> = (0..20).map(|number| frame(1 << number)).collect();
         let GroupedDecisions(groups) = GroupedDecisions::from_frames(&frames);
-        let areas: Vec<u64> = groups.iter().map(|group| group.all).collect();
+        let areas: Vec<u64> = groups.iter().map(|group| group.srs).collect();
         assert_eq!(areas[..3], [0b111, 0b11000, 0b1110_0000]);
         assert_eq!(areas.iter().sum::<u64>(), (1 << 20) - 1);
     }

@@ -61,6 +61,9 @@ pub struct FitResult {
     pub format_version: u32,
     /// The numbers of frames of the first halves and of the second halves.
     pub frames: (u64, u64),
+    /// The disturbance of the frames that the designs saw, as `name=value`, if there was one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub disturbance: Option<String>,
     /// The range of the luma of clips that are video: `coded` or `full`.
     pub luma: &'static str,
     /// The camera that designs are compared with, as TOML.
@@ -125,6 +128,7 @@ impl FitFindings<'_> {
         FitResult {
             format_version: 5,
             frames: frames_of_halves(halves),
+            disturbance: request.disturbance.map(|own| own.to_string()),
             luma: request.input.luma.name(),
             task: DesignConfig { camera: search.task().clone(), ..DesignConfig::default() }
                 .to_toml(),

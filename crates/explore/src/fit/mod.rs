@@ -58,11 +58,11 @@ use foveate_energy::ActivityClip;
 use foveate_footage::InputOptions;
 use foveate_playback::{ClipHalves, RunHooks, RunMonitor};
 
-use crate::ExploreError;
 use crate::cost::Synthesizer;
 use crate::footage::ExplorationFootage;
 use crate::progress::reading_progress;
 use crate::target_process::{EnergyClips, TargetProcess};
+use crate::{Disturbance, ExploreError};
 use activity_target::task_for_target;
 use camera_search::CameraSearch;
 use clip_part::ClipPart;
@@ -88,6 +88,8 @@ pub struct FitRequest<'a> {
     pub inputs: &'a [PathBuf],
     /// The options for reading the clips.
     pub input: &'a InputOptions,
+    /// A disturbance of the frames that candidates see; the ideal camera sees the clips as they are.
+    pub disturbance: Option<Disturbance>,
     /// The limits that the design must meet.
     pub constraints: &'a Constraints,
     /// The clock in Hz, if it is known. Otherwise the clock of each design is estimated from its
@@ -178,7 +180,7 @@ pub fn fit(request: &FitRequest<'_>, hooks: &dyn RunHooks) -> Result<FitResult, 
         first.check()?;
     }
     let (task, target) = task_for_target(request, &footage, &halves)?;
-    let footage = footage.with_ideal(&task);
+    let footage = footage.with_ideal(&task).disturbed(request.disturbance);
     let energy_halves = request.energy_halves(&footage, &halves);
     let hardware = &request.task.hardware;
     let mut search = CameraSearch::new(request.constraints, &footage, &halves, &task, hardware)?;

@@ -4,12 +4,14 @@
 
 use foveate_camera::{Camera, RegionAction};
 use foveate_fidelity::{DecisionAreas, DecisionState, FrameOrder, GridCells};
+use foveate_frame::ByteFrame;
 use foveate_ideal::IdealCamera;
 use foveate_playback::{ClipHalves, PlayedFrame, RunMonitor, RunProgress};
 
 use super::clip_part::ClipPart;
 use super::sampling_error::frame_group;
 use crate::ExploreError;
+use crate::disturbance::{ClipDisturbance, DisturbedFrame};
 use crate::footage::ExplorationFootage;
 use crate::measure::frame_order;
 use crate::row::count_to_f64;
@@ -20,6 +22,8 @@ const MAX_KEPT_BYTES: usize = 1 << 28;
 /// A frame, and the decisions of the ideal camera.
 pub(super) struct SearchedFrame {
     pub(super) frame: PlayedFrame,
+    /// The pixels that cameras see in place of the frame's, if it is disturbed.
+    pub(super) shown: Option<ByteFrame>,
     pub(super) order: FrameOrder,
     pub(super) ideal: Vec<DecisionState>,
     /// The number of its group of consecutive frames.
@@ -112,13 +116,16 @@ impl<'a> SearchedFrames<'a> {
         let (all, mut number) = (usize::try_from(all).unwrap_or(usize::MAX), 0);
         for (clip, &halves) in self.halves.frames.iter().enumerate() {
             let mut camera = IdealCamera::new(&self.ideal);
+            let mut disturbance = ClipDisturbance::new(self.footage.disturbance, clip);
             let mut player = self.footage.clips.open(clip)?.limited_to(end(halves));
             for frame in monitor.watch(&mut player) {
                 let frame = frame?;
                 if frame.is_first() {
                     camera.reset();
                 }
-                let outcome = camera.step(&frame.frame)?;
+                let DisturbedFrame { truth, shown } =
+                    disturbance.disturb(&frame.frame, frame.number)?;
+                let outcome = camera.step(truth.as_ref().unwrap_or(&frame.frame))?;
                 let state = |region: usize| {
                     let action: RegionAction = outcome.actions[region];
                     DecisionState::new(outcome.srs[region], outcome.trs[region], action)
@@ -130,7 +137,7 @@ impl<'a> SearchedFrames<'a> {
                     number += 1;
                     seen = count_to_f64(number as u64) / count_to_f64(all as u64);
                 }
-                take(SearchedFrame { frame, order, ideal, group, seen })?;
+                take(SearchedFrame { frame, shown, order, ideal, group, seen })?;
             }
         }
         Ok(())

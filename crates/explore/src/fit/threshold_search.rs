@@ -127,7 +127,8 @@ impl<'a> ThresholdSearch<'a> {
         let mut ends = EARLY_ENDS.iter().peekable();
         self.frames.for_each(&progress, &mut |searched: &SearchedFrame| {
             let depths = runs.iter().map(|run| run.camera.pixel_bits());
-            let depths = FrameDepths::from_frame(&searched.frame, depths)?;
+            let shown = searched.shown.as_ref();
+            let depths = FrameDepths::from_disturbed(&searched.frame, shown, depths)?;
             let is_end = ends.next_if(|end| searched.seen >= **end).is_some();
             let running = runs.par_iter_mut().filter(|run| run.ended_at.is_none());
             running.try_for_each(|run| {
@@ -144,7 +145,7 @@ impl<'a> ThresholdSearch<'a> {
 
     /// Returns the share of the area of all searched frames.
     fn share_of_all(&self, area: u64) -> f64 {
-        count_to_f64(area) / count_to_f64(self.frames.areas[0].all.max(1))
+        count_to_f64(area) / count_to_f64(self.frames.areas[0].active.all.max(1))
     }
 
     /// Returns the nearest minima of a run, the best ones first, and the number of cameras that were

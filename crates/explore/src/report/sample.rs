@@ -84,6 +84,7 @@ pub(crate) fn sample_exploration(space: &str, areas: bool) -> Exploration {
             ClipRow { name: "hall.mp4".to_owned(), frames: 300 },
         ],
         size: (224, 224),
+        disturbance: None,
         luma: "coded",
         ideal: space.ideal.to_toml(),
         clock_mhz: space.clock_mhz,

@@ -32,7 +32,13 @@ pub(crate) fn run(
     let inputs: Vec<PathBuf> = inputs.iter().map(PathBuf::from).collect();
     let input = InputOptions { frames: Some(12), ..InputOptions::default() };
     explore(
-        &ExploreRequest { space: &space, inputs: &inputs, input: &input, synthesis: None },
+        &ExploreRequest {
+            space: &space,
+            inputs: &inputs,
+            input: &input,
+            disturbance: None,
+            synthesis: None,
+        },
         output,
         hooks,
     )
@@ -96,7 +102,8 @@ fn a_point_has_the_clock_of_its_netlist() {
         let space = &DesignSpace::from_toml(&format!("{clock}{TINY}")).unwrap();
         let output = folder.path().join(name);
         let synthesis = Some(SynthesisRequest { synthesizer: &synthesizer, process: None });
-        let request = ExploreRequest { space, inputs: &inputs, input: &input, synthesis };
+        let request =
+            ExploreRequest { space, inputs: &inputs, input: &input, disturbance: None, synthesis };
         let found = explore(&request, &output, &RecordingHooks::new()).unwrap();
         let points = lines(&output.join("points.csv"));
         let at = points[0].split(',').position(|column| column == "clock_mhz").unwrap();
@@ -133,7 +140,8 @@ fn a_core_on_axi_is_counted_as_a_whole() {
     let inputs = [PathBuf::from("scene:street")];
     let input = InputOptions { frames: Some(2), ..InputOptions::default() };
     let synthesis = Some(SynthesisRequest { synthesizer: &synthesizer, process: None });
-    let request = ExploreRequest { space, inputs: &inputs, input: &input, synthesis };
+    let request =
+        ExploreRequest { space, inputs: &inputs, input: &input, disturbance: None, synthesis };
     let found = explore(&request, &folder.path().join("out"), &RecordingHooks::new()).unwrap();
     let design = found.rows[0].config.validate().unwrap();
     let job = EstimateJob::for_design(&design, Top::Rcm);

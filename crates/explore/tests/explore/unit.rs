@@ -30,7 +30,13 @@ fn with_request<T>(space: &str, inputs: &[&str], then: impl FnOnce(&ExploreReque
     let space = DesignSpace::from_toml(space).unwrap();
     let inputs: Vec<PathBuf> = inputs.iter().map(PathBuf::from).collect();
     let input = InputOptions { frames: Some(12), ..InputOptions::default() };
-    then(&ExploreRequest { space: &space, inputs: &inputs, input: &input, synthesis: None })
+    then(&ExploreRequest {
+        space: &space,
+        inputs: &inputs,
+        input: &input,
+        disturbance: None,
+        synthesis: None,
+    })
 }
 
 pub(crate) fn units(space: &str, inputs: &[&str], output: &Path) -> Vec<WorkUnit> {

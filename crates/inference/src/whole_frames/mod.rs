@@ -15,5 +15,6 @@ pub(crate) use comparison::{
 };
 pub use interval::{ConfidenceIntervals, has_class_map, wilson_interval};
 pub(crate) use kept_screens::{KeptScreen, KeptScreens};
+pub use noise::GaussianNoise;
 pub use noise_comparison::{NOISE_LEVELS, NoiseAgreement, NoiseComparison};
 pub use summary::{GroundTruthFigures, WholeFrameAgreement};

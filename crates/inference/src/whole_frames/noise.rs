@@ -18,7 +18,7 @@ const LARGEST_OF_8_BITS: f64 = 255.0;
 
 /// Noise of one standard deviation on frames of one depth.
 #[derive(Clone, Debug)]
-pub(super) struct GaussianNoise {
+pub struct GaussianNoise {
     /// The largest step down of a pixel, in grey levels.
     largest_step_down: i64,
     /// The end of the range of draws of every step but the last, from the largest step down.
@@ -33,7 +33,8 @@ impl GaussianNoise {
         clippy::cast_sign_loss,
         reason = "draws are below 2^32, and steps no larger than pixels of 16 bits"
     )]
-    pub(super) fn new(deviation: f64, pixel_max: u32) -> Self {
+    #[must_use]
+    pub fn new(deviation: f64, pixel_max: u32) -> Self {
         let max = u16::try_from(pixel_max).unwrap_or(u16::MAX);
         let deviation = deviation * f64::from(max) / LARGEST_OF_8_BITS;
         let reach = (MAX_DEVIATIONS * deviation).ceil().min(f64::from(max)) as i32;
@@ -48,8 +49,8 @@ impl GaussianNoise {
         }
     }
 
-    /// Writes the frame with noise to `noisy`, in place of its content.
-    pub(super) fn add(&self, frame: &[u16], seed: u64, noisy: &mut Vec<u16>) {
+    /// Writes the frame with noise to `noisy`, in place of its content. A seed gives one noise.
+    pub fn add(&self, frame: &[u16], seed: u64, noisy: &mut Vec<u16>) {
         let mut chance = Rng::with_seed(seed);
         noisy.clear();
         noisy.extend(frame.iter().map(|&pixel| self.noisy_pixel(pixel, chance.u32(..))));
