@@ -10,10 +10,11 @@ depth from 3 bits, filter and window, with levels and minima around those of the
 scores of the Python package, and a camera must meet all limits in the searched part, in the part that confirms, and so in the first half. The
 cheapest of these cameras is synthesized in the organization of the design that was found.
 
-Needs `foveate` on the path (or its path in FOVEATE), and with --grid NumPy and the package foveate.
+Needs `foveate` on the path (or its path in FOVEATE), NumPy and the package foveate.
 """
 import argparse
 import csv
+import itertools
 import json
 import os
 import subprocess
@@ -21,12 +22,19 @@ import sys
 import tempfile
 import tomllib
 
+import numpy as np
+
+import foveate as fv
+
 FOVEATE = os.environ.get("FOVEATE", "foveate")
 COLUMNS = ["input", "max_flips_percent", "result", "design", "cost_percent", "flips_percent", "missed_percent", "false_alarms_percent",
            "cameras", "grid_cameras", "grid_design", "grid_cost_percent"]
 # Quantiles of Student's t and of a normal variable: 19 of 20 values are below.
 STUDENT = [6.314, 2.920, 2.353, 2.132, 2.015, 1.943, 1.895]
 NORMAL = 1.645
+# The minimum scores and counts of the grid.
+MIN_SCORES = (2, 3, 4, 5, 6, 7, 8)
+MIN_COUNTS = (1, 2, 3, 4, 5, 6, 8, 10)
 # LUTs, RAMB18, DSPs and a hundred times the flip-flops of an XCVU9P.
 DEVICE = {"lut_total_packed": 1_182_240, "bram18": 4_320, "dsp": 6_840, "ff": 236_448_000}
 
@@ -48,85 +56,85 @@ def fitted(path, arguments):
     return (json.loads(run.stdout), "") if run.stdout.startswith("{") else (None, run.stderr.strip())
 
 
-def grid_rows(result, path):
-    """Yields the settings of cameras of the grid that meet the limits, without repeated hardware, and the number of all cameras."""
-    import numpy as np
+class Comparison:
+    """The ideal camera of a fit on the first half of a clip, and the limits on decisions."""
 
-    import foveate as fv
+    def __init__(self, result, path):
+        self.config = {key: table for key, table in tomllib.loads(result["task"]).items() if key != "hardware"}
+        frames = np.stack([outcome.frame for outcome in fv.simulate(path, self.config)])
+        half = len(frames) // 2
+        searched = -(-2 * half // 3)
+        self.parts = [np.arange(0, searched), np.arange(searched, half)]
+        self.frames = frames[:half]
+        self.ideal = self.run({"region": {**self.config["region"], "neighborhood": "shared"}}, 0)
+        checks = {check["name"]: check["limit"] for check in result["design"]["fitted_held"]}
+        self.limits = np.array([checks[name] for name in ("max-flips", "max-missed", "max-false-alarms")])
 
-    config = {key: table for key, table in tomllib.loads(result["task"]).items() if key != "hardware"}
-    frames = np.stack([outcome.frame for outcome in fv.simulate(path, config)])
-    half = len(frames) // 2
-    searched = -(-2 * half // 3)
-    parts = [slice(0, searched), slice(searched, half)]
-    side = config["region"]["size"]
-    exact = {**config, "region": {**config["region"], "neighborhood": "shared"}}
-    ideal = fv.Camera(exact).run(frames[:half], rendered=False, progress=False)
-    limits = {check["name"]: check["limit"] for check in result["design"]["fitted_held"]}
-    names = ("max-flips", "max-missed", "max-false-alarms")
-    feature = config["spatial"][0]["feature"]
-    first = np.zeros(half, bool)
-    first[0] = True
+    def run(self, changes, shift):
+        """Returns the outcomes of a camera that differs from the task in some tables, for frames with so many bits fewer."""
+        return fv.Camera({**self.config, **changes}).run(self.frames >> shift, rendered=False, progress=False)
 
-    def rates(srs, trs, part, left_out=None):
-        """Returns flips, missed and false alarms of a part, and the regions that they are shares of."""
-        numbers = np.arange(half)[part]
-        if left_out is not None:
-            groups = min(8, len(numbers))
-            numbers = numbers[np.arange(len(numbers)) * groups // len(numbers) != left_out]
-        def action(relevant, changed):
-            return np.where(relevant, np.where(changed, 2, 1), 0)
-        own, other = action(srs, trs)[numbers], action(ideal.srs, ideal.trs)[numbers]
-        later = numbers[~first[numbers]]
-        sent, wanted = (srs & trs)[later], ideal.active[later]
+    def rates(self, srs, trs, numbers):
+        """Returns flips, missed and false alarms in some frames, and the regions that they are shares of."""
+        own, other = (np.where(relevant, np.where(changed, 2, 1), 0)[numbers]
+                      for relevant, changed in ((srs, trs), (self.ideal.srs, self.ideal.trs)))
+        later = numbers[numbers > 0]
+        sent, wanted = (srs & trs)[later], self.ideal.active[later]
         both = (sent & wanted).sum()
-        return np.array([(own != other).mean(), 1 - both / max(wanted.sum(), 1) if wanted.any() else 0,
-                         1 - both / max(sent.sum(), 1) if sent.any() else 0]), (own.size, wanted.sum(), sent.sum())
+        counts = np.array([own.size, wanted.sum(), sent.sum()])
+        wrong = np.array([(own != other).sum(), counts[1] - both, counts[2] - both])
+        return wrong / np.maximum(counts, 1), counts
 
-    def expected(srs, trs, part):
-        """Returns the rates to expect of other frames."""
-        share, regions = rates(srs, trs, part)
-        count = min(8, len(range(half)[part]))
-        without = np.array([rates(srs, trs, part, group)[0] for group in range(count)])
-        error = np.sqrt((count - 1) / count * ((without - without.mean(0)) ** 2).sum(0))
-        most = share + STUDENT[count - 2] * 2**0.5 * error
-        for rate in (1, 2):
-            n = max(regions[rate] / 2, 1e-9)
-            square = NORMAL**2 / n
-            spread = NORMAL * (share[rate] * (1 - share[rate]) / n + square / (4 * n)) ** 0.5
-            most[rate] = min(max(most[rate], (share[rate] + square / 2 + spread) / (1 + square)), 1)
-        return most, min(regions)
+    def expected(self, srs, trs, numbers):
+        """Returns the rates to expect of other frames, and the regions that they are shares of."""
+        share, counts = self.rates(srs, trs, numbers)
+        groups = min(8, len(numbers))
+        of_frame = np.arange(len(numbers)) * groups // len(numbers)
+        without = np.array([self.rates(srs, trs, numbers[of_frame != group])[0] for group in range(groups)])
+        error = np.sqrt((groups - 1) / groups * ((without - without.mean(0)) ** 2).sum(0))
+        by_groups = share + STUDENT[groups - 2] * 2**0.5 * error
+        half = np.maximum(counts / 2, 1e-9)
+        square = NORMAL**2 / half
+        spread = NORMAL * np.sqrt(share * (1 - share) / half + square / (4 * half))
+        by_count = (share + square / 2 + spread) / (1 + square)
+        by_count[0] = 0
+        return np.minimum(np.maximum(by_groups, by_count), 1), counts
 
-    cameras, holding = 0, {}
+    def holds(self, srs, trs):
+        """Returns whether decisions meet the limits in both parts. Most fail without a margin, which is faster."""
+        if any((self.rates(srs, trs, part)[0] > self.limits).any() for part in self.parts):
+            return False
+        judged = [self.expected(srs, trs, part) for part in self.parts]
+        return all((most <= self.limits).all() and (counts >= 49).all() for most, counts in judged)
+
+
+def levels_around(level, factors, least):
+    """Returns the levels around one, rounded to the nearest and down."""
+    return sorted({max(least, int(level * factor + 0.5)) for factor in factors} | {max(least, int(level))})
+
+
+def search_grid(comparison):
+    """Returns the number of cameras of the grid, and thresholds for each depth, filter and window that meet the limits."""
+    config, cameras, holding = comparison.config, 0, {}
+    [feature] = config["spatial"]
     bits = config["frame"]["pixel_bits"]
-    for depth in range(3, bits + 1):
+    shapes = itertools.product(range(3, bits + 1), ("none", "median3x3", "switching3x3", "binomial3x3"), ("shared", "isolated"))
+    for depth, denoise, windows in shapes:
         shift = bits - depth
-        temporal = config["temporal"]["level"] / 2**shift
-        level = config["spatial"][0].get("level", 0) / 2**shift
-        temporals = sorted({max(0, int(temporal * factor + 0.5)) for factor in (0.5, 0.75, 1, 1.25, 1.6)} | {max(0, int(temporal))})
-        levels = sorted({max(1, int(level * factor + 0.5)) for factor in (0.85, 0.95, 1, 1.05, 1.15)} | {int(level)})
-        for denoise in ("none", "median3x3", "switching3x3", "binomial3x3"):
-            for windows in ("shared", "isolated"):
-                shape = (depth, denoise, windows)
-                for changed in temporals:
-                    for edge in levels:
-                        camera = fv.Camera({**config, "frame": {**config["frame"], "pixel_bits": depth},
-                                            "region": {"size": side, "neighborhood": windows}, "denoise": {"filter": denoise},
-                                            "temporal": {**config["temporal"], "level": changed},
-                                            "spatial": [{"feature": feature, "level": edge, "min_score": 1}]})
-                        found = camera.run(frames[:half] >> shift, rendered=False, progress=False)
-                        scores, counts = found.scores[feature], found.changed
-                        for least in (2, 3, 4, 5, 6, 7, 8):
-                            for pixels in (1, 2, 3, 4, 5, 6, 8, 10):
-                                cameras += 1
-                                srs, trs = scores >= least, counts >= pixels
-                                # Most cameras fail without a margin.
-                                shares = [rates(srs, trs, part)[0] for part in parts]
-                                if any(share > limits[name] for part in shares for share, name in zip(part, names)):
-                                    continue
-                                judged = [expected(srs, trs, part) for part in parts]
-                                if all(count >= 49 and all(rate <= limits[name] for rate, name in zip(most, names)) for most, count in judged):
-                                    holding.setdefault(shape, (changed, pixels, edge, least))
+        temporals = levels_around(config["temporal"]["level"] / 2**shift, (0.5, 0.75, 1, 1.25, 1.6), 0)
+        levels = levels_around(feature["level"] / 2**shift, (0.85, 0.95, 1, 1.05, 1.15), 1)
+        for changed, level in itertools.product(temporals, levels):
+            found = comparison.run({
+                "frame": {**config["frame"], "pixel_bits": depth},
+                "region": {**config["region"], "neighborhood": windows},
+                "denoise": {"filter": denoise},
+                "temporal": {**config["temporal"], "level": changed},
+                "spatial": [{**feature, "level": level, "min_score": 1}],
+            }, shift)
+            for least, pixels in itertools.product(MIN_SCORES, MIN_COUNTS):
+                cameras += 1
+                if comparison.holds(found.scores[feature["feature"]] >= least, found.changed >= pixels):
+                    holding.setdefault((depth, denoise, windows), (changed, pixels, level, least))
     return cameras, holding
 
 
@@ -173,7 +181,7 @@ def main():
         row = [name, limit, outcome, design["summary"], percent(cost(design["silicon"]["array"])), percent(held_out["action_flips"]),
                percent(held_out["missed"]), percent(held_out["false_alarms"]), result["considered"][0]]
         if arguments.grid:
-            cameras, holding = grid_rows(result, path)
+            cameras, holding = search_grid(Comparison(result, path))
             row += [cameras, *(cheapest_of_grid(result, holding) if holding else ("none", ""))]
             row[-1] = percent(row[-1]) if holding else ""
         table.writerow(row)

@@ -168,14 +168,14 @@ impl<'a> CameraSearch<'a> {
     /// Examines the cameras that meet the limits on their decisions in the searched part, each with the
     /// best thresholds that meet all limits in both parts; or the nearest cameras if there is none.
     fn examine_nearest(&mut self, found: &[Vec<BestThresholds>]) -> Result<(), ExploreError> {
-        let holding = found.iter().filter(|nearest| all_met(&nearest[0].checks)).count();
+        let holding = found.iter().filter(|nearest| nearest[0].meets_limits()).count();
         let nearest = &found[..holding.max(MAX_NEAREST_CAMERAS).min(found.len())];
         let most = nearest.iter().map(Vec::len).max().unwrap_or(0);
         let mut open: Vec<&Vec<BestThresholds>> = nearest.iter().collect();
         for alternative in 0..most {
             let of_camera = |nearest: &&Vec<BestThresholds>| {
                 let best = nearest.get(alternative)?;
-                let is_worth_it = alternative == 0 || all_met(&best.checks);
+                let is_worth_it = alternative == 0 || best.meets_limits();
                 is_worth_it.then(|| best.config.clone())
             };
             let configs: Vec<_> = open.iter().filter_map(of_camera).collect();
@@ -527,6 +527,6 @@ mod tests {
             }
         }
         assert!(best.distance <= least, "{} {least}", best.distance);
-        assert!(all_met(&best.checks) && !best.is_lower_bound, "{:?}", best.checks);
+        assert!(best.meets_limits(), "{:?}", best.checks);
     }
 }

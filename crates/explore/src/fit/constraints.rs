@@ -127,11 +127,6 @@ impl ConstraintCheck {
         Self { holds, is_expected, too_few_regions: too_few, ..check }
     }
 
-    /// Returns the constraint of a share of flips, 0 to 1.
-    pub(super) fn check_flips(share: f64, limit: f64) -> Self {
-        Self::check_at_most(RATE_NAMES[0], share, limit)
-    }
-
     /// Returns the constraint of a network's agreement, 0 to 1, with its least value.
     pub(super) fn check_agreement(share: f64, least: f64) -> Self {
         Self::check_at_least("min-agreement", share, least)

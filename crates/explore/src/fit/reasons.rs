@@ -156,13 +156,14 @@ fn judged_text(
 ) -> Option<String> {
     let best = search.with_best_thresholds(config);
     let examined = search.get(best.map_or(config, |best| &best.config));
+    if let (None, Some(bound)) = (examined, best.and_then(|best| best.least_flips)) {
+        return Some(format!("more than {:.2} % flips", 100.0 * bound));
+    }
     let checks = examined.map(|examined| &examined.checks).or(best.map(|best| &best.checks))?;
     let broken = checks.iter().filter(|check| !check.holds).map(ConstraintCheck::text);
     let broken = broken.collect::<Vec<_>>().join(", ");
     if !broken.is_empty() {
-        let is_lower_bound = examined.is_none() && best.is_some_and(|best| best.is_lower_bound);
-        let bound = if is_lower_bound { "more than" } else { "at best" };
-        return Some(format!("{bound} {broken}"));
+        return Some(format!("at best {broken}"));
     }
     let examined = examined?;
     let flips = examined.figures.action_flips * 100.0;

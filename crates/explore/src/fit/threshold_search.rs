@@ -14,7 +14,7 @@ use foveate_fidelity::{DecisionLimits, ThresholdTable};
 use foveate_playback::{FrameDepths, RunProgress};
 use rayon::prelude::*;
 
-use super::constraints::{ConstraintCheck, Constraints};
+use super::constraints::{ConstraintCheck, Constraints, all_met};
 use super::decision_rates::GroupedDecisions;
 use super::searched_frames::{SearchedFrame, SearchedFrames};
 use super::threshold_run::{ThresholdRun, as_f64, three_digits};
@@ -28,7 +28,7 @@ const LEVEL_CHANGES: [f64; 4] = [0.7, 0.88, 1.14, 1.4];
 /// The shares of the frames after which a run ends if no minima can meet the limit on flips.
 const EARLY_ENDS: [f64; 3] = [0.15, 0.3, 0.6];
 /// The distance from the limits above which a camera is given up.
-const HOPELESS: f64 = 6.0;
+const HOPELESS: f64 = 4.0;
 /// The number of minima of a run, and of thresholds of a camera, that are compared with a margin.
 const MAX_ALTERNATIVES: usize = 8;
 
@@ -38,10 +38,18 @@ pub(super) struct BestThresholds {
     pub(super) config: CameraConfig,
     /// The constraints on the rates to expect of other frames.
     pub(super) checks: Vec<ConstraintCheck>,
-    /// True if the flips are only a lower bound, because the run ended early.
-    pub(super) is_lower_bound: bool,
+    /// The share of flips that no minima can be below, if the run ended early; it exceeds the limit, and there
+    /// are no constraints.
+    pub(super) least_flips: Option<f64>,
     /// The distance from the limits: the largest ratio of a rate and its limit.
     pub(super) distance: f64,
+}
+
+impl BestThresholds {
+    /// Returns true if the decisions meet all limits.
+    pub(super) fn meets_limits(&self) -> bool {
+        self.least_flips.is_none() && all_met(&self.checks)
+    }
 }
 
 /// The search of thresholds.
@@ -159,13 +167,12 @@ impl<'a> ThresholdSearch<'a> {
             if run.ended_at.is_none() {
                 let distance = self.limits.distance(all.map(|rate| rate.expected));
                 let checks = self.constraints.check_rates(&rates);
-                return BestThresholds { config, checks, is_lower_bound: false, distance };
+                return BestThresholds { config, checks, least_flips: None, distance };
             }
             // The other frames may have no flips. The distance is that of the frames so far.
-            let least = self.share_of_all(run.least_flips());
-            let flips = ConstraintCheck::check_flips(least, self.limits.flips.unwrap_or(1.0));
+            let least_flips = Some(self.share_of_all(run.least_flips()));
             let distance = self.limits.distance(all.map(|rate| rate.share));
-            BestThresholds { config, checks: vec![flips], is_lower_bound: true, distance }
+            BestThresholds { config, checks: Vec::new(), least_flips, distance }
         };
         let mut nearest: Vec<BestThresholds> = found.into_iter().map(judged).collect();
         nearest.sort_by(|one, other| one.distance.total_cmp(&other.distance));
