@@ -20,9 +20,9 @@ import os
 import subprocess
 import sys
 import tempfile
-import tomllib
 
 import numpy as np
+import tomllib
 
 import foveate as fv
 
