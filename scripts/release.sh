@@ -4,7 +4,7 @@
 # step that has passed on this commit is not run again, so an interrupted run continues.
 #
 #   scripts/release.sh                    all steps
-#   scripts/release.sh STEP...            some of them; whole:PACKAGE is the part of the step `whole` that tests one package
+#   scripts/release.sh STEP...            some of them; whole:FOLDER is the part of the step `whole` that tests crates/FOLDER
 #   scripts/release.sh --changed [BASE]   those that the table in CONTRIBUTING.md names for the files that have changed since the commit
 #                                         BASE; without BASE, since the last recorded run of each step
 #   scripts/release.sh --list             lists the steps
@@ -44,10 +44,13 @@ step_cosim() {
 }
 step_whole() {
     # The whole lists of faults, netlists and designs, of which the tests otherwise take a part, and the tests that take long. No test is
-    # chosen by its name, because a test that no name fits would never take its whole list. whole:PACKAGE is the part of a package.
-    local packages=(--workspace)
-    [ $# -eq 0 ] || packages=(--package "$1")
-    FOVEATE_WHOLE=1 cargo test "${packages[@]}" --locked -- --include-ignored
+    # chosen by its name, because a test that no name fits would never take its whole list. whole:FOLDER is the part of crates/FOLDER.
+    if [ $# -eq 0 ]; then
+        FOVEATE_WHOLE=1 cargo test --workspace --locked -- --include-ignored
+    else
+        export FOVEATE_WHOLE=1
+        cargo test --manifest-path "crates/$1/Cargo.toml" --locked -- --include-ignored
+    fi
 }
 step_python() { FOVEATE_WHOLE=1 scripts/python.sh --torch --test; }
 step_page() { scripts/web.sh --test; }
