@@ -252,7 +252,7 @@ mod tests {
     use super::*;
 
     fn ramp(bits: u32) -> ByteFrame {
-        let pixel = |at: u16| (at % 16 + at / 16) * ((1 << bits) - 1) / 31;
+        let pixel = |at: u32| u16::try_from((at % 16 + at / 16) * ((1 << bits) - 1) / 31).unwrap();
         ByteFrame::from_words(16, 16, bits, (0..256).map(pixel).collect()).unwrap()
     }
 
@@ -283,7 +283,7 @@ mod tests {
         let flicker = shown(Disturbance::Flicker(8.0), 8, 5);
         assert_eq!((&flicker[0], &flicker[3]), (&clip, &clip));
         assert_eq!(flicker[1][0] + 7 - clip[0], 14);
-        assert_eq!((flicker[4][0], flicker[4][255]), (0, 248));
+        assert_eq!((clip[255], flicker[4][0], flicker[4][255]), (246, 0, 239));
         let gain = shown(Disturbance::Gain(50.0), 8, 121);
         assert_eq!((&gain[0], &gain[120]), (&clip, &clip));
         assert_eq!((clip[17], gain[60][17], gain[30][17]), (16, 24, 20));

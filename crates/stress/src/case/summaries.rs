@@ -35,14 +35,42 @@ fn config_with_means(
 pub(crate) fn halves(_: RunDepth) -> Vec<CaseRow> {
     let sides = [(2, 1), (3, 1), (6, 2), (8, 4), (20, 4), (64, 1)];
     let depths = [8, 16];
-    sides.iter().flat_map(|&sides| depths.map(|bits| around_halves(sides, bits))).collect()
+    let mut errors = PixelErrors::default();
+    for (sides, bits) in sides.iter().flat_map(|&sides| depths.map(|bits| (sides, bits))) {
+        compare_around_halves(sides, bits, &mut errors);
+    }
+    let designs = "6 pairs of N and blocks, P 8 and 16";
+    vec![errors.row("means of blocks on one half", designs, "pixels wrong")]
 }
 
-fn around_halves((side, blocks): (u32, u32), bits: u32) -> CaseRow {
+/// The errors of pixels on the screen.
+#[derive(Default)]
+struct PixelErrors {
+    wrong: u64,
+    tried: u64,
+    worst: u32,
+}
+
+impl PixelErrors {
+    /// Compares a screen with the value of all its pixels, which may be off by some levels.
+    fn compare(&mut self, screen: &Frame, value: u32, allowed: u32) {
+        for &shown in screen.pixels() {
+            let error = u32::from(shown).abs_diff(value);
+            self.wrong += u64::from(error > allowed);
+            self.tried += 1;
+            self.worst = self.worst.max(error);
+        }
+    }
+
+    fn row(&self, case: &'static str, designs: &str, what: &str) -> CaseRow {
+        CaseRow::for_no_errors(case, designs, what, (self.wrong, self.tried), self.worst)
+    }
+}
+
+fn compare_around_halves((side, blocks): (u32, u32), bits: u32, errors: &mut PixelErrors) {
     let design = design(&config_with_means((side, side), side, bits, blocks, 0));
     let (block, max) = (side / blocks, (1 << bits) - 1);
     let n = block * block;
-    let (mut wrong, mut tried, mut worst) = (0, 0, 0);
     for base in [0, 1, max / 2, max - 1] {
         for above in (n / 2).saturating_sub(2)..=(n / 2 + 2).min(n) {
             // In every block `above` pixels are one level higher, so its mean is base + above / n.
@@ -52,21 +80,9 @@ fn around_halves((side, blocks): (u32, u32), bits: u32) -> CaseRow {
             let mean = base + u32::from(2 * above >= n);
             let mut camera = FunctionalCamera::new(&design);
             let outcome = camera.step(&region).expect("the region is a frame of the design");
-            for &shown in outcome.rendered.pixels() {
-                let error = u32::from(shown).abs_diff(mean);
-                (wrong, tried) = (wrong + u64::from(error > 0), tried + 1);
-                worst = worst.max(error);
-            }
+            errors.compare(&outcome.rendered, mean, 0);
         }
     }
-    let designs = format!("N {side}, P {bits}, {blocks}x{blocks} means");
-    CaseRow::for_no_errors(
-        "means of blocks on one half",
-        designs,
-        "pixels wrong",
-        (wrong, tried),
-        worst,
-    )
 }
 
 /// Tests a fade of one level per frame, up and down, and jumps. In every frame, the value that a
@@ -77,40 +93,27 @@ pub(crate) fn fade(depth: RunDepth) -> Vec<CaseRow> {
     let mut jumps = RandomNumbers::new(5);
     let jumps: Vec<u32> =
         (0..frames).map(|_| u32::try_from(jumps.below(256)).expect("a pixel has 8 bits")).collect();
-    let lights: [(&'static str, Vec<u32>); 2] =
-        [("one level per frame", (0..frames).map(slow_fade).collect()), ("jumps", jumps)];
-    let mut rows = Vec::new();
-    for (name, lights) in lights {
-        for &blocks in SUMMARY_BLOCKS {
-            for level in [0, 4, 254] {
-                rows.push(fade_row(name, &lights, blocks, level));
-            }
+    let lights = [("one level per frame", (0..frames).map(slow_fade).collect()), ("jumps", jumps)];
+    let row = |(name, lights): (&str, Vec<u32>)| {
+        let mut errors = PixelErrors::default();
+        for (blocks, level) in
+            SUMMARY_BLOCKS.iter().flat_map(|blocks| [0, 4, 254].map(|level| (*blocks, level)))
+        {
+            compare_with_light(&lights, (blocks, level), &mut errors);
         }
-    }
-    rows
+        let designs = format!("{name}, all blocks, levels 0, 4 and 254, {frames} frames");
+        errors.row("means follow the scene", &designs, "pixels off by more")
+    };
+    lights.map(row).into()
 }
 
-/// Makes the row of a case that compares the screen with a flat scene.
-fn fade_row(name: &str, lights: &[u32], blocks: u32, level: u32) -> CaseRow {
+/// Compares the screen with a flat scene.
+fn compare_with_light(lights: &[u32], (blocks, level): (u32, u32), errors: &mut PixelErrors) {
     const SIZE: (u32, u32) = (13, 11);
     let mut camera = FunctionalCamera::new(&design(&config_with_means(SIZE, 8, 8, blocks, level)));
-    let (mut wrong, mut tried, mut worst) = (0, 0, 0);
     for &light in lights {
         let flat: Frame = frame_from_fn(SIZE, 8, |_, _| light);
         let outcome = camera.step(&flat).expect("it is a frame of the design");
-        for &shown in outcome.rendered.pixels() {
-            let error = u32::from(shown).abs_diff(light);
-            (wrong, tried) = (wrong + u64::from(error > level), tried + 1);
-            worst = worst.max(error);
-        }
+        errors.compare(&outcome.rendered, light, level);
     }
-    let frames = lights.len();
-    let designs = format!("{name}, {blocks}x{blocks} means, level {level}, {frames} frames");
-    CaseRow::for_no_errors(
-        "means follow the scene",
-        designs,
-        "pixels off by more",
-        (wrong, tried),
-        worst,
-    )
 }

@@ -6,16 +6,15 @@ use foveate_engine::Engine;
 use foveate_frame::Frame;
 use foveate_model::FunctionalCamera;
 
-use crate::designs::{config, design};
+use crate::designs::{config, design, organization_for};
 use crate::test_frames::RandomNumbers;
 use crate::{CaseRow, RunDepth};
 
-/// Tests that a score votes if the minimum is equal to it and not if it is one higher, and that a
-/// pixel is a hit if the level is one below its magnitude and not if it is equal.
+/// Tests that a score votes if the minimum is equal to it and not if it is one higher, or higher by the
+/// last digit of a decimal, and that a pixel is a hit if the level is one below its magnitude and not if it is equal.
 pub(crate) fn on_below_above(depth: RunDepth) -> Vec<CaseRow> {
     let rounds = depth.choose(12, 200);
-    let counted = FeatureKind::ALL.iter().filter(|kind| kind.score_unit().is_count());
-    let scored = counted.map(|&kind| score_thresholds(kind, rounds));
+    let scored = FeatureKind::ALL.iter().map(|&kind| score_thresholds(kind, rounds));
     scored.chain([edge_levels(rounds), temporal_thresholds(rounds)]).collect()
 }
 
@@ -23,6 +22,7 @@ const SIDE: u32 = 8;
 
 fn config_without_filter(feature: FeatureKind) -> DesignConfig {
     let mut config = config((SIDE, SIDE), SIDE, 8, &[feature]);
+    config.hardware.organization = organization_for(feature).into();
     config.camera.denoise.filter = DenoiseFilter::None;
     config
 }
@@ -56,22 +56,33 @@ fn threshold_row(designs: &str, what: &str, answers: &[bool]) -> CaseRow {
 }
 
 fn score_thresholds(kind: FeatureKind, rounds: u64) -> CaseRow {
+    /// The smallest step of a decimal is a billionth.
+    const UNIT: u64 = 1_000_000_000;
     let mut answers = Vec::new();
     for seed in 0..rounds {
         let frame = RandomNumbers::new(seed).frame((SIDE, SIDE), 8);
+        // Only a feature that compares a region with its reference sees the frame before.
+        let before = RandomNumbers::new(seed + rounds).frame((SIDE, SIDE), 8);
         let mut config = config_without_filter(kind);
-        config.camera.spatial[0].level = Some(40);
-        let score =
-            compare_answers(&config, [&frame, &frame], |o| o.scores[0][0], |o| o.scores[0][0]);
+        if kind.score_unit().is_count() {
+            config.camera.spatial[0].level = Some(40);
+        }
+        let frames = [&before, &frame];
+        let score = compare_answers(&config, frames, |o| o.scores[0][0], |o| o.scores[0][0]);
         let Some(score) = score else {
             answers.push(false);
             continue;
         };
-        let largest = design(&config).features()[0].score_max();
-        for min in [score.saturating_sub(1), score, (score + 1).min(largest)] {
-            config.camera.spatial[0].min_score = Some(Decimal::from_whole(min));
-            let voted = compare_answers(&config, [&frame, &frame], |o| o.srs[0], |o| o.srs[0]);
-            answers.push(voted == Some(score >= min));
+        let design = design(&config);
+        let feature = &design.features()[0];
+        // The decimal of a score is rounded down, and is still above the score before.
+        let decimal = |score: u64| score * UNIT / feature.unit();
+        let step = if kind.score_unit().is_count() { UNIT } else { 1 };
+        let minima = [decimal(score.saturating_sub(1)), decimal(score), decimal(score) + step];
+        for billionths in minima.into_iter().filter(|own| *own <= decimal(feature.score_max())) {
+            config.camera.spatial[0].min_score = Some(Decimal::from_billionths(billionths));
+            let voted = compare_answers(&config, frames, |o| o.srs[0], |o| o.srs[0]);
+            answers.push(voted == Some(billionths <= decimal(score)));
         }
     }
     threshold_row(&format!("{kind}, N {SIDE}, min_score"), "votes wrong", &answers)
