@@ -37,6 +37,8 @@ const CALLS: &[(&str, &str, &str)] = &[
         "simulate scene:street --frames 2 --clocks --sink-stalls ENDLESS -o out",
     ),
     ("dataset", "<INPUT>...", "dataset ENDLESS -o out"),
+    ("stress", "[INPUT]...", "stress ENDLESS"),
+    ("stress", "--task", "stress scene:street --task ENDLESS"),
     ("explain", "<INPUT>...", "explain ENDLESS --frame 1 --region 0,0"),
     ("analyze", "<INPUT>...", "analyze activity ENDLESS -o out"),
     (

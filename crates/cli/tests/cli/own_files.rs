@@ -246,6 +246,7 @@ fn a_file_that_is_replaced_keeps_its_mode() {
         "--sink-stalls",
         "--macros",
         "--timestamps",
+        "--task",
     ];
     let is_read = |option: &String| read.iter().any(|read| option.ends_with(read));
     let written =
