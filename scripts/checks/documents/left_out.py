@@ -68,6 +68,7 @@ LONG = [
     ("docs/guides/board.md", "foveate build --board my_board.toml", "a minute"),
     ("docs/guides/choose.md", "foveate fit", "three minutes"),
     ("docs/guides/choose.md", "foveate generate --config camera.toml", "no time, but what `fit` wrote"),
+    ("docs/guides/choose.md", "foveate stress --config camera.toml", "no time, but what `fit` wrote"),
     ("docs/guides/choose.md", "foveate explore approximations street.mp4", "more than six minutes"),
     ("docs/guides/choose.md", "foveate explore space.toml", "minutes, which depend on what the command before it has kept"),
     ("docs/guides/data.md", "from foveate.torch import RegionEvents", PYTORCH),
