@@ -99,7 +99,7 @@ impl FromStr for Disturbance {
 
 /// The frames that the ideal camera and the other cameras see in place of a frame; `None` is the frame itself.
 #[derive(Debug, Default)]
-pub(crate) struct DisturbedFrame {
+pub(crate) struct FrameDisturbance {
     pub(crate) truth: Option<ByteFrame>,
     pub(crate) shown: Option<ByteFrame>,
 }
@@ -121,9 +121,9 @@ impl ClipDisturbance {
         &mut self,
         frame: &ByteFrame,
         number: u64,
-    ) -> Result<DisturbedFrame, ExploreError> {
-        let Some(disturbance) = self.disturbance else { return Ok(DisturbedFrame::default()) };
-        let pixels = Pixels::of(frame);
+    ) -> Result<FrameDisturbance, ExploreError> {
+        let Some(disturbance) = self.disturbance else { return Ok(FrameDisturbance::default()) };
+        let pixels = PixelLevels::of(frame);
         let seed = unrelated_seed((self.clip << 40) ^ number);
         let shown = match disturbance {
             Disturbance::Noise(levels) => pixels.with_noise(levels, seed),
@@ -144,19 +144,19 @@ impl ClipDisturbance {
             Disturbance::Still(levels) => {
                 let first = self.first.get_or_insert_with(|| frame.clone()).clone();
                 let noisy = match levels > 0.0 {
-                    true => Some(Pixels::of(&first).with_noise(levels, seed).into_frame()?),
+                    true => Some(PixelLevels::of(&first).with_noise(levels, seed).into_frame()?),
                     false => None,
                 };
                 let shown = Some(noisy.unwrap_or_else(|| first.clone()));
-                return Ok(DisturbedFrame { truth: Some(first), shown });
+                return Ok(FrameDisturbance { truth: Some(first), shown });
             }
         };
-        Ok(DisturbedFrame { truth: None, shown: Some(shown.into_frame()?) })
+        Ok(FrameDisturbance { truth: None, shown: Some(shown.into_frame()?) })
     }
 }
 
 /// The pixels of a frame.
-struct Pixels {
+struct PixelLevels {
     width: u32,
     height: u32,
     bits: u32,
@@ -164,7 +164,7 @@ struct Pixels {
     values: Vec<u16>,
 }
 
-impl Pixels {
+impl PixelLevels {
     fn of(frame: &ByteFrame) -> Self {
         let (width, height, bits) = (frame.width(), frame.height(), frame.bits());
         let max = u16::try_from((1_u32 << bits) - 1).expect("a pixel has at most 16 bits");

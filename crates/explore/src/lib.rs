@@ -11,8 +11,8 @@
 
 mod compare;
 mod cost;
+mod design_disturbance;
 mod disturbance;
-mod disturbed_design;
 mod error;
 mod exploration;
 mod exploration_work;
@@ -40,8 +40,8 @@ mod unit;
 
 pub use compare::{CameraComparison, compare};
 pub use cost::{DesignArea, Synthesizer};
+pub use design_disturbance::{DisturbanceRow, disturb_design};
 pub use disturbance::Disturbance;
-pub use disturbed_design::{DisturbedRow, disturb_design};
 pub use error::ExploreError;
 pub use exploration::{ClipRow, Exploration};
 pub use explore::explore;

@@ -16,7 +16,7 @@ use foveate_playback::{ClipPlayer, FrameDepths, PlayedFrame, RunClips, RunMonito
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::disturbance::{ClipDisturbance, DisturbedFrame};
+use crate::disturbance::{ClipDisturbance, FrameDisturbance};
 use crate::objects::ObjectCounts;
 use crate::{Disturbance, ExploreError};
 
@@ -71,7 +71,7 @@ pub(crate) struct MeasuredClip<'a> {
 /// A frame and the outcome of the ideal camera for it.
 struct IdealFrame {
     frame: PlayedFrame,
-    disturbed: DisturbedFrame,
+    disturbed: FrameDisturbance,
     ideal: IdealOutcome,
     objects: Vec<Rect>,
 }

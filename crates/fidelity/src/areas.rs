@@ -36,6 +36,16 @@ impl DecisionState {
         Self((u8::from(srs) * SRS) | (u8::from(trs) * TRS) | action)
     }
 
+    /// Returns the states of regions.
+    pub fn of_regions<'o>(
+        srs: &'o [bool],
+        trs: &'o [bool],
+        actions: &'o [RegionAction],
+    ) -> impl Iterator<Item = Self> + 'o {
+        let regions = srs.iter().zip(trs).zip(actions);
+        regions.map(|((&srs, &trs), &action)| Self::new(srs, trs, action))
+    }
+
     /// Returns true if SRS and TRS are both set.
     #[must_use]
     pub fn is_active(self) -> bool {

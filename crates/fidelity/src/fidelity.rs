@@ -145,15 +145,12 @@ impl Fidelity {
         order: FrameOrder,
     ) -> DecisionAreas {
         let Self { cells, states: [ideal_states, candidate_states], .. } = self;
+        let [srs, trs] = [&ideal.srs, &ideal.trs];
         ideal_states.clear();
-        ideal_states.extend(
-            (0..ideal.srs.len())
-                .map(|at| DecisionState::new(ideal.srs[at], ideal.trs[at], ideal.actions[at])),
-        );
+        ideal_states.extend(DecisionState::of_regions(srs, trs, &ideal.actions));
+        let [srs, trs] = [&candidate.srs, &candidate.trs];
         candidate_states.clear();
-        candidate_states.extend((0..candidate.srs.len()).map(|at| {
-            DecisionState::new(candidate.srs[at], candidate.trs[at], candidate.actions[at])
-        }));
+        candidate_states.extend(DecisionState::of_regions(srs, trs, &candidate.actions));
         let (mut table, mut areas) = (NO_AREAS, DecisionAreas::default());
         cells.add_areas(ideal_states, candidate_states, &mut table);
         areas.add_table(&table, order);

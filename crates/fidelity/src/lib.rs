@@ -32,5 +32,5 @@ pub use overlap::GridCells;
 pub use similarity::FrameSimilarity;
 pub use tally::ErrorTally;
 pub use threshold_table::{
-    ChosenSteps, ComparedMinima, DecisionLimits, MinimumSteps, ThresholdTable,
+    ChosenSteps, DecisionLimits, MinimumChoice, MinimumSteps, ThresholdTable,
 };

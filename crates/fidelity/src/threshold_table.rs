@@ -90,13 +90,11 @@ struct TableRow {
     flips: [bool; 3],
 }
 
-/// Minima, and the rates of the camera with them.
+/// Minima, and how far the camera is from some limits with them.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ComparedMinima {
+pub struct MinimumChoice {
     /// The numbers of the minima among the steps.
     pub chosen: ChosenSteps,
-    /// The flips, the missed share and the share of false alarms, 0..=1.
-    pub rates: [f64; 3],
     /// The distance from the limits.
     pub distance: f64,
 }
@@ -149,7 +147,8 @@ impl ThresholdTable {
         });
     }
 
-    /// Returns the least area that flips with any of the minima.
+    /// Returns the least area that flips with any of the minima of one feature; with several features, the least
+    /// that the search of [`Self::nearest`] finds.
     #[must_use]
     pub fn least_flips(&self) -> u64 {
         let rows = self.rows();
@@ -173,16 +172,15 @@ impl ThresholdTable {
         start: ChosenSteps,
         limits: &DecisionLimits,
         most: usize,
-    ) -> (Vec<ComparedMinima>, usize) {
+    ) -> (Vec<MinimumChoice>, usize) {
         let rows = self.rows();
-        let (mut found, mut compared): (Vec<ComparedMinima>, usize) = (Vec::new(), 0);
+        let (mut found, mut compared): (Vec<MinimumChoice>, usize) = (Vec::new(), 0);
         self.for_each_neighborhood(start, |chosen| {
             compared += 1;
-            let rates = self.sums(&rows, chosen).0;
-            let distance = limits.distance(rates);
+            let distance = limits.distance(self.sums(&rows, chosen).0);
             let at = found.partition_point(|known| known.distance <= distance);
             if at < most && !found.iter().any(|known| known.chosen == *chosen) {
-                found.insert(at, ComparedMinima { chosen: chosen.clone(), rates, distance });
+                found.insert(at, MinimumChoice { chosen: chosen.clone(), distance });
                 found.truncate(most);
             }
             at == 0

@@ -3,7 +3,7 @@
 
 use std::sync::atomic::Ordering;
 
-use foveate_explore::{DisturbedRow, ExploreError, disturb_design};
+use foveate_explore::{DisturbanceRow, ExploreError, disturb_design};
 use foveate_footage::ImageRelation;
 use foveate_playback::PlaybackError;
 use foveate_stress::{CaseRow, RunDepth};
@@ -22,11 +22,11 @@ struct StressReport<'a> {
 }
 
 #[derive(Serialize)]
-struct DisturbedReport<'a> {
+struct DisturbanceReport<'a> {
     format_version: u32,
     design: String,
     task: String,
-    rows: &'a [DisturbedRow],
+    rows: &'a [DisturbanceRow],
     problems: &'a [String],
 }
 
@@ -85,7 +85,7 @@ fn disturb(args: &StressArgs) -> Result<(), CliError> {
     if args.json {
         let (design, task) = (design.to_toml(), task.to_toml());
         let (rows, problems) = (&*rows, &*problems);
-        output::print_json(&DisturbedReport { format_version: 1, design, task, rows, problems })?;
+        output::print_json(&DisturbanceReport { format_version: 1, design, task, rows, problems })?;
     } else {
         output::print_text(&disturbed_table(&rows, args.markdown))?;
     }
@@ -98,9 +98,9 @@ fn disturb(args: &StressArgs) -> Result<(), CliError> {
 }
 
 /// Returns the rows as a table, aligned or in Markdown.
-fn disturbed_table(rows: &[DisturbedRow], is_markdown: bool) -> String {
+fn disturbed_table(rows: &[DisturbanceRow], is_markdown: bool) -> String {
     let names = ["disturbance", "flips %", "missed %", "false alarms %", "PSNR dB", "bytes/frame"];
-    let cells = |row: &DisturbedRow| {
+    let cells = |row: &DisturbanceRow| {
         let percent = |share: f64| format!("{:.2}", 100.0 * share);
         [
             row.disturbance.clone(),

@@ -13,10 +13,10 @@ use foveate_playback::ClipHalves;
 
 use super::clip_part::ClipPart;
 use super::constraints::{ConstraintCheck, Constraints, PartFigures, all_met, total_excess};
-use super::decision_rates::{GroupedDecisions, MIN_REGIONS};
+use super::decision_rates::{DecisionGroups, MIN_REGIONS};
 use super::possible_designs::can_be_built;
-use super::searched_frames::SearchedFrames;
-use super::threshold_search::{BestThresholds, ThresholdSearch};
+use super::search_frames::SearchFrames;
+use super::threshold_search::{ThresholdChoice, ThresholdSearch};
 use crate::ExploreError;
 use crate::footage::ExplorationFootage;
 use crate::measure::CameraMeasurement;
@@ -61,7 +61,7 @@ pub(super) struct CameraSearch<'a> {
     hardware: &'a HardwareConfig,
     examined: BTreeMap<String, ExaminedCamera>,
     /// The best thresholds of cameras, by what else they are.
-    best: BTreeMap<String, BestThresholds>,
+    best: BTreeMap<String, ThresholdChoice>,
     compared: usize,
 }
 
@@ -96,7 +96,7 @@ impl<'a> CameraSearch<'a> {
     }
 
     /// Returns the best thresholds of all cameras.
-    pub(super) fn best_thresholds(&self) -> impl Iterator<Item = &BestThresholds> {
+    pub(super) fn best_thresholds(&self) -> impl Iterator<Item = &ThresholdChoice> {
         self.best.values()
     }
 
@@ -121,7 +121,7 @@ impl<'a> CameraSearch<'a> {
     }
 
     /// Returns a camera with its best thresholds, if these were searched.
-    pub(super) fn with_best_thresholds(&self, config: &CameraConfig) -> Option<&BestThresholds> {
+    pub(super) fn with_best_thresholds(&self, config: &CameraConfig) -> Option<&ThresholdChoice> {
         self.best.get(&text_without_thresholds(config))
     }
 
@@ -136,7 +136,7 @@ impl<'a> CameraSearch<'a> {
     /// # Errors
     /// Fails if the ideal camera is active too rarely for a limit on missed regions.
     pub(super) fn run(&mut self) -> Result<(), ExploreError> {
-        let frames = SearchedFrames::read(self.footage, self.halves, &self.task.validate()?)?;
+        let frames = SearchFrames::read(self.footage, self.halves, &self.task.validate()?)?;
         self.check_active_regions(&frames)?;
         let mut search = ThresholdSearch::new(&frames, self.constraints);
         let features = self.features();
@@ -167,13 +167,13 @@ impl<'a> CameraSearch<'a> {
 
     /// Examines the cameras that meet the limits on their decisions in the searched part, each with the
     /// best thresholds that meet all limits in both parts; or the nearest cameras if there is none.
-    fn examine_nearest(&mut self, found: &[Vec<BestThresholds>]) -> Result<(), ExploreError> {
+    fn examine_nearest(&mut self, found: &[Vec<ThresholdChoice>]) -> Result<(), ExploreError> {
         let holding = found.iter().filter(|nearest| nearest[0].meets_limits()).count();
         let nearest = &found[..holding.max(MAX_NEAREST_CAMERAS).min(found.len())];
         let most = nearest.iter().map(Vec::len).max().unwrap_or(0);
-        let mut open: Vec<&Vec<BestThresholds>> = nearest.iter().collect();
+        let mut open: Vec<&Vec<ThresholdChoice>> = nearest.iter().collect();
         for alternative in 0..most {
-            let of_camera = |nearest: &&Vec<BestThresholds>| {
+            let of_camera = |nearest: &&Vec<ThresholdChoice>| {
                 let best = nearest.get(alternative)?;
                 let is_worth_it = alternative == 0 || best.meets_limits();
                 is_worth_it.then(|| best.config.clone())
@@ -190,7 +190,7 @@ impl<'a> CameraSearch<'a> {
     }
 
     /// Fails if the ideal camera is active too rarely for a limit on missed regions.
-    fn check_active_regions(&self, frames: &SearchedFrames<'_>) -> Result<(), ExploreError> {
+    fn check_active_regions(&self, frames: &SearchFrames<'_>) -> Result<(), ExploreError> {
         let side = f64::from(self.task.region.size);
         let regions = frames.areas.map(|areas| count_to_f64(areas.later.ideal) / (side * side));
         let is_limited = self.constraints.max_missed.is_some_and(|limit| limit < 1.0);
@@ -336,7 +336,7 @@ impl<'a> CameraSearch<'a> {
             Some(_) => Some(objects.recall().ok_or(ExploreError::NoObjects { half })?),
             None => None,
         };
-        let decisions = GroupedDecisions::from_frames(&frames);
+        let decisions = DecisionGroups::from_frames(&frames);
         Ok(PartFigures { figures: tally.figures(), decisions, recall })
     }
 }
@@ -507,7 +507,7 @@ mod tests {
         let hardware = HardwareConfig::default();
         let search = CameraSearch::new(&constraints, &footage, &halves, &task, &hardware).unwrap();
         let ideal = search.task.validate().unwrap();
-        let frames = SearchedFrames::read(&footage, &halves, &ideal).unwrap();
+        let frames = SearchFrames::read(&footage, &halves, &ideal).unwrap();
         let mut thresholds = ThresholdSearch::new(&frames, &constraints);
         let mut start = search.task.clone();
         start.region.neighborhood = Neighborhood::Shared;

@@ -8,7 +8,7 @@ use foveate_estimate::FrameRate;
 use foveate_fidelity::FidelityFigures;
 use serde::Serialize;
 
-use super::decision_rates::{DecisionRate, DecisionRates, GroupedDecisions, MIN_REGIONS};
+use super::decision_rates::{DecisionGroups, DecisionRate, DecisionRates, MIN_REGIONS};
 use crate::cost::DesignArea;
 use crate::row::{bytes_per_frame, count_to_f64};
 use crate::target_process::{ProcessEnergy, ProcessFigures};
@@ -84,7 +84,7 @@ pub struct ConstraintCheck {
 #[derive(Clone, Debug)]
 pub(super) struct PartFigures {
     pub(super) figures: FidelityFigures,
-    pub(super) decisions: GroupedDecisions,
+    pub(super) decisions: DecisionGroups,
     /// The share of the objects that is sent, if it is limited.
     pub(super) recall: Option<f64>,
 }

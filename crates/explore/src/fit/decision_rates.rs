@@ -12,7 +12,7 @@ pub(super) const MIN_REGIONS: f64 = 49.0;
 
 /// The areas of a camera's decisions, in groups of consecutive frames.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct GroupedDecisions(pub(super) Vec<DecisionAreas>);
+pub(super) struct DecisionGroups(pub(super) Vec<DecisionAreas>);
 
 /// A rate and what it is taken of.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,7 +33,7 @@ pub(super) struct DecisionRates {
     pub(super) false_alarms: DecisionRate,
 }
 
-impl GroupedDecisions {
+impl DecisionGroups {
     /// Sums the decisions of single frames of all clips.
     pub(super) fn from_frames(frames: &[DecisionAreas]) -> Self {
         let mut groups = vec![DecisionAreas::default(); group_count(frames.len())];
@@ -90,7 +90,7 @@ mod tests {
                 ActiveAreas { all: 400, ideal: 4 * 50, candidate: 4 * candidate, both: 4 * both };
             DecisionAreas { action: 4 * action, active: later, later, ..DecisionAreas::default() }
         };
-        let decisions = GroupedDecisions(vec![group(0, 50, 50), group(10, 45, 65)]);
+        let decisions = DecisionGroups(vec![group(0, 50, 50), group(10, 45, 65)]);
         let DecisionRates { flips, missed, false_alarms } = decisions.rates((2, 2));
         assert_eq!((flips.share, flips.regions), (0.05, 200.0));
         // With two groups the jackknife is half of their difference, and t is 6.314.
@@ -100,7 +100,7 @@ mod tests {
         assert_eq!((false_alarms.share, false_alarms.regions), (20.0 / 115.0, 115.0));
         assert!(false_alarms.expected <= 1.0 && false_alarms.expected > 0.9);
         // Equal groups have no jackknife; the number of regions still leaves a margin.
-        let equal = GroupedDecisions(vec![group(10, 45, 65); 2]).rates((2, 2));
+        let equal = DecisionGroups(vec![group(10, 45, 65); 2]).rates((2, 2));
         assert_eq!(equal.flips.expected, equal.flips.share);
         assert_eq!(equal.missed.expected, share_of_others(0.1, 100.0)[1]);
     }
@@ -109,7 +109,7 @@ mod tests {
     fn frames_are_in_groups_of_neighbors() {
         let frame = |srs: u64| DecisionAreas { srs, ..DecisionAreas::default() };
         let frames: Vec<_> = (0..20).map(|number| frame(1 << number)).collect();
-        let GroupedDecisions(groups) = GroupedDecisions::from_frames(&frames);
+        let DecisionGroups(groups) = DecisionGroups::from_frames(&frames);
         let areas: Vec<u64> = groups.iter().map(|group| group.srs).collect();
         assert_eq!(areas[..3], [0b111, 0b11000, 0b1110_0000]);
         assert_eq!(areas.iter().sum::<u64>(), (1 << 20) - 1);

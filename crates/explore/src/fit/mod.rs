@@ -39,7 +39,7 @@ mod possible_designs;
 mod reasons;
 mod rough_cost;
 mod sampling_error;
-mod searched_frames;
+mod search_frames;
 mod simplest_cameras;
 mod slower_designs;
 mod synthesis;

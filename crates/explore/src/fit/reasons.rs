@@ -17,7 +17,7 @@ use super::constraints::ConstraintCheck;
 use super::simplest_cameras::filter_complexity;
 use super::synthesis::SynthesizedDesigns;
 use super::synthesized_design::SynthesizedDesign;
-use super::threshold_search::BestThresholds;
+use super::threshold_search::ThresholdChoice;
 
 /// Describes a design in a few words.
 pub(super) fn design_text(design: &Design) -> String {
@@ -188,7 +188,7 @@ fn other_features(
         (names.join(" and "), config.region.size)
     };
     let own = of(&chosen.examined.config);
-    let mut best: BTreeMap<(String, u32), &BestThresholds> = BTreeMap::new();
+    let mut best: BTreeMap<(String, u32), &ThresholdChoice> = BTreeMap::new();
     for camera in search.best_thresholds() {
         let key = of(&camera.config);
         // Readers ask for cameras that differ in one setting only.
@@ -201,7 +201,7 @@ fn other_features(
     }
     let mut best: Vec<_> = best.into_iter().collect();
     best.sort_by(|one, other| one.1.distance.total_cmp(&other.1.distance));
-    let line = |((features, size), camera): ((String, u32), &BestThresholds)| {
+    let line = |((features, size), camera): ((String, u32), &ThresholdChoice)| {
         let text = judged_text(search, built, &camera.config)?;
         Some(format!("{features} in {size}x{size} regions: {text}"))
     };

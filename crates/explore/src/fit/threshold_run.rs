@@ -9,9 +9,9 @@ use foveate_fidelity::{
 };
 use foveate_playback::FrameDepths;
 
-use super::decision_rates::GroupedDecisions;
+use super::decision_rates::DecisionGroups;
 use super::sampling_error::FRAME_GROUPS;
-use super::searched_frames::SearchedFrame;
+use super::search_frames::SearchFrame;
 use crate::ExploreError;
 
 /// The ratio of a number of pixels and the next smaller one that is tried.
@@ -63,7 +63,7 @@ impl ThresholdRun {
     /// Shows a frame to the camera.
     pub(super) fn add_frame(
         &mut self,
-        SearchedFrame { ideal, order, group, .. }: &SearchedFrame,
+        SearchFrame { ideal, order, group, .. }: &SearchFrame,
         depths: &FrameDepths<'_>,
     ) -> Result<(), ExploreError> {
         let outcome = depths.show_to(&mut self.engine)?;
@@ -96,20 +96,20 @@ impl ThresholdRun {
         &self,
         limits: &DecisionLimits,
         most: usize,
-    ) -> (Vec<(CameraConfig, GroupedDecisions)>, usize) {
+    ) -> (Vec<(CameraConfig, DecisionGroups)>, usize) {
         let config = self.camera.config();
         match &self.decisions {
             RunDecisions::OfAllMinima(table, decimals) => {
                 let start = decimals.steps_of(&self.camera);
                 let (found, compared) = table.nearest(start, limits, most);
                 let camera = |chosen: &ChosenSteps| {
-                    let decisions = GroupedDecisions(table.decisions(chosen));
+                    let decisions = DecisionGroups(table.decisions(chosen));
                     (decimals.config(config, chosen), decisions)
                 };
                 (found.iter().map(|minima| camera(&minima.chosen)).collect(), compared)
             }
             RunDecisions::OfOwnMinima(_, groups) => {
-                (vec![(config.clone(), GroupedDecisions(groups.clone()))], 1)
+                (vec![(config.clone(), DecisionGroups(groups.clone()))], 1)
             }
         }
     }

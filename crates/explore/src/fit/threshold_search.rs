@@ -15,8 +15,8 @@ use foveate_playback::{FrameDepths, RunProgress};
 use rayon::prelude::*;
 
 use super::constraints::{ConstraintCheck, Constraints, all_met};
-use super::decision_rates::GroupedDecisions;
-use super::searched_frames::{SearchedFrame, SearchedFrames};
+use super::decision_rates::DecisionGroups;
+use super::search_frames::{SearchFrame, SearchFrames};
 use super::threshold_run::{ThresholdRun, as_f64, three_digits};
 use crate::ExploreError;
 use crate::row::count_to_f64;
@@ -34,7 +34,7 @@ const MAX_ALTERNATIVES: usize = 8;
 
 /// A camera with its best thresholds.
 #[derive(Clone, Debug)]
-pub(super) struct BestThresholds {
+pub(super) struct ThresholdChoice {
     pub(super) config: CameraConfig,
     /// The constraints on the rates to expect of other frames.
     pub(super) checks: Vec<ConstraintCheck>,
@@ -45,7 +45,7 @@ pub(super) struct BestThresholds {
     pub(super) distance: f64,
 }
 
-impl BestThresholds {
+impl ThresholdChoice {
     /// Returns true if the decisions meet all limits.
     pub(super) fn meets_limits(&self) -> bool {
         self.least_flips.is_none() && all_met(&self.checks)
@@ -54,7 +54,7 @@ impl BestThresholds {
 
 /// The search of thresholds.
 pub(super) struct ThresholdSearch<'a> {
-    frames: &'a SearchedFrames<'a>,
+    frames: &'a SearchFrames<'a>,
     constraints: &'a Constraints,
     limits: DecisionLimits,
     /// The number of cameras that were compared.
@@ -64,7 +64,7 @@ pub(super) struct ThresholdSearch<'a> {
 /// The descent of one camera.
 struct ThresholdDescent {
     /// The nearest thresholds, the best ones first.
-    nearest: Vec<BestThresholds>,
+    nearest: Vec<ThresholdChoice>,
     /// The cameras that are run next.
     next: Vec<CameraConfig>,
     /// The cameras that were run, without their minima if these are free.
@@ -72,7 +72,7 @@ struct ThresholdDescent {
 }
 
 impl<'a> ThresholdSearch<'a> {
-    pub(super) fn new(frames: &'a SearchedFrames<'a>, constraints: &'a Constraints) -> Self {
+    pub(super) fn new(frames: &'a SearchFrames<'a>, constraints: &'a Constraints) -> Self {
         let &Constraints { max_flips, max_missed, max_false_alarms, .. } = constraints;
         let limits =
             DecisionLimits { flips: max_flips, missed: max_missed, false_alarms: max_false_alarms };
@@ -84,7 +84,7 @@ impl<'a> ThresholdSearch<'a> {
     pub(super) fn run(
         &mut self,
         starts: Vec<Vec<CameraConfig>>,
-    ) -> Result<Vec<Vec<BestThresholds>>, ExploreError> {
+    ) -> Result<Vec<Vec<ThresholdChoice>>, ExploreError> {
         let begin = |next| ThresholdDescent { nearest: Vec::new(), next, tried: BTreeSet::new() };
         let mut descents: Vec<ThresholdDescent> = starts.into_iter().map(begin).collect();
         loop {
@@ -122,7 +122,7 @@ impl<'a> ThresholdSearch<'a> {
 
     /// Returns the best minima with the levels of one camera.
     #[cfg(test)]
-    pub(super) fn run_alone(&self, config: &CameraConfig) -> Result<BestThresholds, ExploreError> {
+    pub(super) fn run_alone(&self, config: &CameraConfig) -> Result<ThresholdChoice, ExploreError> {
         let run = ThresholdRun::new(&self.frames.ideal, &config.validate()?);
         let runs = self.run_cameras(vec![run])?;
         Ok(self.nearest(&runs[0]).0.remove(0))
@@ -133,7 +133,7 @@ impl<'a> ThresholdSearch<'a> {
         let compared = self.compared;
         let progress = move || RunProgress::work(format!("comparing cameras, {compared} so far"));
         let mut ends = EARLY_ENDS.iter().peekable();
-        self.frames.for_each(&progress, &mut |searched: &SearchedFrame| {
+        self.frames.for_each(&progress, &mut |searched: &SearchFrame| {
             let depths = runs.iter().map(|run| run.camera.pixel_bits());
             let shown = searched.shown.as_ref();
             let depths = FrameDepths::from_disturbed(&searched.frame, shown, depths)?;
@@ -158,23 +158,23 @@ impl<'a> ThresholdSearch<'a> {
 
     /// Returns the nearest minima of a run, the best ones first, and the number of cameras that were
     /// compared.
-    fn nearest(&self, run: &ThresholdRun) -> (Vec<BestThresholds>, usize) {
+    fn nearest(&self, run: &ThresholdRun) -> (Vec<ThresholdChoice>, usize) {
         let sides = (self.frames.ideal.region_size(), run.camera.region_size());
         let (found, compared) = run.nearest(&self.limits, MAX_ALTERNATIVES);
-        let judged = |(config, decisions): (CameraConfig, GroupedDecisions)| {
+        let judged = |(config, decisions): (CameraConfig, DecisionGroups)| {
             let rates = decisions.rates(sides);
             let all = [rates.flips, rates.missed, rates.false_alarms];
             if run.ended_at.is_none() {
                 let distance = self.limits.distance(all.map(|rate| rate.expected));
                 let checks = self.constraints.check_rates(&rates);
-                return BestThresholds { config, checks, least_flips: None, distance };
+                return ThresholdChoice { config, checks, least_flips: None, distance };
             }
             // The other frames may have no flips. The distance is that of the frames so far.
             let least_flips = Some(self.share_of_all(run.least_flips()));
             let distance = self.limits.distance(all.map(|rate| rate.share));
-            BestThresholds { config, checks: Vec::new(), least_flips, distance }
+            ThresholdChoice { config, checks: Vec::new(), least_flips, distance }
         };
-        let mut nearest: Vec<BestThresholds> = found.into_iter().map(judged).collect();
+        let mut nearest: Vec<ThresholdChoice> = found.into_iter().map(judged).collect();
         nearest.sort_by(|one, other| one.distance.total_cmp(&other.distance));
         (nearest, compared)
     }
@@ -182,7 +182,7 @@ impl<'a> ThresholdSearch<'a> {
 
 impl ThresholdDescent {
     /// Adds thresholds. Returns true if one is better than all before.
-    fn add(&mut self, found: Vec<BestThresholds>) -> bool {
+    fn add(&mut self, found: Vec<ThresholdChoice>) -> bool {
         let least = self.nearest.first().map_or(f64::INFINITY, |best| best.distance);
         self.nearest.extend(found);
         self.nearest.sort_by(|one, other| one.distance.total_cmp(&other.distance));

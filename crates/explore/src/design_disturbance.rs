@@ -17,7 +17,7 @@ use crate::{Disturbance, ExploreError};
 
 /// The figures of a design on disturbed clips. Shares are 0..=1.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct DisturbedRow {
+pub struct DisturbanceRow {
     /// The disturbance, as `name=value`; `none` for the clips as they are.
     pub disturbance: String,
     /// The share of the regions whose action differs from the ideal's.
@@ -44,14 +44,13 @@ pub fn disturb_design(
     inputs: &[PathBuf],
     input: &InputOptions,
     hooks: &dyn RunHooks,
-) -> Result<(Vec<DisturbedRow>, Vec<String>), ExploreError> {
-    let footage = ExplorationFootage::new((inputs, &[]), input, task, hooks)?;
+) -> Result<(Vec<DisturbanceRow>, Vec<String>), ExploreError> {
+    let mut footage = ExplorationFootage::new((inputs, &[]), input, task, hooks)?;
     let camera = config.validate_for_frames(footage.size.0, footage.size.1)?;
     let all = std::iter::once(None).chain(Disturbance::STANDARD.map(Some));
     let (mut rows, mut problems) = (Vec::new(), Vec::new());
     for (done, disturbance) in all.enumerate() {
-        let footage = ExplorationFootage::new((inputs, &[]), input, task, hooks)?;
-        let footage = footage.disturbed(disturbance);
+        footage = footage.disturbed(disturbance);
         let stage = |_| measuring_progress(done, 1 + Disturbance::STANDARD.len());
         let mut sum = None;
         for (clip, subject) in footage.clips.clips().iter().enumerate() {
@@ -69,7 +68,7 @@ pub fn disturb_design(
         let (figures, later) = (tally.figures(), tally.decisions().later);
         let share_of_all = count_to_f64(later.candidate) / count_to_f64(later.all.max(1));
         let false_alarms = if later.ideal == 0 { share_of_all } else { figures.false_alarms };
-        rows.push(DisturbedRow {
+        rows.push(DisturbanceRow {
             disturbance: disturbance.map_or_else(|| "none".to_owned(), |own| own.to_string()),
             flips: figures.action_flips,
             missed: figures.missed,

@@ -2,7 +2,7 @@
 //! The frames of the part of all clips that cameras are searched by, with the decisions of the ideal
 //! camera. They are kept in memory if they fit, and read again otherwise.
 
-use foveate_camera::{Camera, RegionAction};
+use foveate_camera::Camera;
 use foveate_fidelity::{DecisionAreas, DecisionState, FrameOrder, GridCells};
 use foveate_frame::ByteFrame;
 use foveate_ideal::IdealCamera;
@@ -11,7 +11,7 @@ use foveate_playback::{ClipHalves, PlayedFrame, RunMonitor, RunProgress};
 use super::clip_part::ClipPart;
 use super::sampling_error::frame_group;
 use crate::ExploreError;
-use crate::disturbance::{ClipDisturbance, DisturbedFrame};
+use crate::disturbance::{ClipDisturbance, FrameDisturbance};
 use crate::footage::ExplorationFootage;
 use crate::measure::frame_order;
 use crate::row::count_to_f64;
@@ -20,7 +20,7 @@ use crate::row::count_to_f64;
 const MAX_KEPT_BYTES: usize = 1 << 28;
 
 /// A frame, and the decisions of the ideal camera.
-pub(super) struct SearchedFrame {
+pub(super) struct SearchFrame {
     pub(super) frame: PlayedFrame,
     /// The pixels that cameras see in place of the frame's, if it is disturbed.
     pub(super) shown: Option<ByteFrame>,
@@ -34,23 +34,24 @@ pub(super) struct SearchedFrame {
 }
 
 /// The frames of the searched part.
-pub(super) struct SearchedFrames<'a> {
+pub(super) struct SearchFrames<'a> {
     footage: &'a ExplorationFootage<'a>,
     halves: &'a ClipHalves,
     pub(super) ideal: Camera,
-    kept: Option<Vec<SearchedFrame>>,
+    kept: Option<Vec<SearchFrame>>,
     /// The areas of all searched frames, and of the frames that confirm, as the ideal decides.
     pub(super) areas: [DecisionAreas; 2],
 }
 
-/// Returns the bytes of a frame's pixels.
-fn pixels_of(frame: &SearchedFrame) -> usize {
+/// Returns the bytes of a frame's pixels and decisions.
+fn byte_count(frame: &SearchFrame) -> usize {
     let own = &frame.frame.frame;
     let bytes = if own.bits() <= 8 { 1 } else { 2 };
-    bytes * own.width() as usize * own.height() as usize
+    let planes = 1 + usize::from(frame.shown.is_some());
+    planes * bytes * own.width() as usize * own.height() as usize + frame.ideal.len()
 }
 
-impl<'a> SearchedFrames<'a> {
+impl<'a> SearchFrames<'a> {
     /// Reads the frames, and keeps them if they fit into memory.
     pub(super) fn read(
         footage: &'a ExplorationFootage<'a>,
@@ -72,7 +73,7 @@ impl<'a> SearchedFrames<'a> {
             if !is_searched {
                 return Ok(());
             }
-            bytes += 2 * frame.ideal.len() + pixels_of(&frame);
+            bytes += byte_count(&frame);
             kept = kept.take().filter(|_| bytes <= MAX_KEPT_BYTES);
             if let Some(kept) = &mut kept {
                 kept.push(frame);
@@ -87,7 +88,7 @@ impl<'a> SearchedFrames<'a> {
     pub(super) fn for_each(
         &self,
         progress: &(dyn Fn() -> RunProgress<'static> + Sync),
-        show: &mut dyn FnMut(&SearchedFrame) -> Result<(), ExploreError>,
+        show: &mut dyn FnMut(&SearchFrame) -> Result<(), ExploreError>,
     ) -> Result<(), ExploreError> {
         let Some(kept) = &self.kept else {
             let searched = |halves| ClipPart::Search.frames(halves).end;
@@ -107,7 +108,7 @@ impl<'a> SearchedFrames<'a> {
         &self,
         end: impl Fn((u64, u64)) -> u64,
         progress: &(dyn Fn() -> RunProgress<'static> + Sync),
-        take: &mut dyn FnMut(SearchedFrame) -> Result<(), ExploreError>,
+        take: &mut dyn FnMut(SearchFrame) -> Result<(), ExploreError>,
     ) -> Result<(), ExploreError> {
         let stage = |_| progress();
         let monitor = RunMonitor::of_stage(self.footage.hooks, &stage);
@@ -123,21 +124,18 @@ impl<'a> SearchedFrames<'a> {
                 if frame.is_first() {
                     camera.reset();
                 }
-                let DisturbedFrame { truth, shown } =
+                let FrameDisturbance { truth, shown } =
                     disturbance.disturb(&frame.frame, frame.number)?;
                 let outcome = camera.step(truth.as_ref().unwrap_or(&frame.frame))?;
-                let state = |region: usize| {
-                    let action: RegionAction = outcome.actions[region];
-                    DecisionState::new(outcome.srs[region], outcome.trs[region], action)
-                };
-                let ideal = (0..outcome.srs.len()).map(state).collect();
+                let (srs, trs) = (&outcome.srs, &outcome.trs);
+                let ideal = DecisionState::of_regions(srs, trs, &outcome.actions).collect();
                 let (order, mut group, mut seen) = (frame_order(&frame), 0, f64::INFINITY);
                 if frame.number < searched(halves) {
                     group = frame_group(number, all);
                     number += 1;
                     seen = count_to_f64(number as u64) / count_to_f64(all as u64);
                 }
-                take(SearchedFrame { frame, shown, order, ideal, group, seen })?;
+                take(SearchFrame { frame, shown, order, ideal, group, seen })?;
             }
         }
         Ok(())
