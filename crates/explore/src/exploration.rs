@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use crate::objective::{FrontObjectives, Objective};
 use crate::point::settings_text;
-use crate::{DesignRow, RefusedCombination};
+use crate::{DesignRow, FrontMembership, RefusedCombination};
 
 /// The results of an exploration.
 #[derive(Clone, Debug, Serialize)]
@@ -46,6 +46,9 @@ pub struct Exploration {
     /// The problems: clips that ended early, and designs that could not be synthesized, mapped to cells or
     /// simulated as gates, with the reasons.
     pub problems: Vec<String>,
+    /// The number of areas that are not known yet, while the exploration runs.
+    #[serde(skip)]
+    pub(crate) awaited_areas: usize,
 }
 
 impl Exploration {
@@ -54,21 +57,60 @@ impl Exploration {
         FrontObjectives::of_rows(&self.rows, self.library.is_some())
     }
 
-    /// Returns the figures of the front of all, for a sentence: `error, speed and area`.
+    /// Returns the fronts that have a point, each by rising error.
     #[must_use]
-    pub fn front_figures(&self) -> &'static str {
-        let FrontObjectives { area, has_areas, .. } = self.front_objectives();
-        match (has_areas, area) {
-            (false, _) => "error and speed",
-            (true, Objective::Mm2) => "error, speed and area in mm²",
-            (true, _) => "error, speed and area in LUTs",
-        }
+    pub fn fronts(&self) -> Vec<DesignFront<'_>> {
+        let FrontObjectives { area, .. } = self.front_objectives();
+        let area = match area {
+            Objective::Mm2 => "Error against mm²",
+            _ => "Error against share of the device",
+        };
+        let front = |names, is_on: fn(&FrontMembership) -> bool| {
+            DesignFront::new(names, self.rows.iter().filter(|row| is_on(&row.front)))
+        };
+        let mut fronts = vec![
+            front(("area", area), |front| front.area),
+            front(("speed", "Error against frames per second"), |front| front.speed),
+            front(("energy", "Error against energy"), |front| front.energy),
+        ];
+        fronts.retain(|front| !front.rows.is_empty());
+        fronts
     }
 
     /// Returns the settings of a point as `key = value`.
     #[must_use]
     pub fn settings_text(&self, row: &DesignRow) -> String {
         settings_text(self.axes.iter().map(String::as_str), &row.settings)
+    }
+}
+
+/// The front of the error and one other figure.
+#[derive(Clone, Debug)]
+pub struct DesignFront<'a> {
+    /// The figure besides the error: `area`, `speed` or `energy`.
+    pub name: &'static str,
+    /// The two figures in words.
+    pub title: &'static str,
+    /// The points, by rising error.
+    pub rows: Vec<&'a DesignRow>,
+}
+
+impl<'a> DesignFront<'a> {
+    pub(crate) fn new(
+        (name, title): (&'static str, &'static str),
+        rows: impl Iterator<Item = &'a DesignRow>,
+    ) -> Self {
+        let mut rows: Vec<_> = rows.collect();
+        rows.sort_by(|one, other| one.figures.action_flips.total_cmp(&other.figures.action_flips));
+        Self { name, title, rows }
+    }
+
+    /// Returns the points that are named where not all of them can be: at most eight, with both ends and evenly
+    /// spread between them.
+    pub fn named_rows(&self) -> impl Iterator<Item = &'a DesignRow> {
+        const NAMED: usize = 8;
+        let (count, last) = (self.rows.len().min(NAMED), self.rows.len().saturating_sub(1));
+        (0..count).map(move |index| self.rows[index * last / (count - 1).max(1)])
     }
 }
 

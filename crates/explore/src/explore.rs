@@ -13,8 +13,8 @@ use crate::folder::{MARK_FILE, UNFINISHED_MARK, claim_folder, open_continued, wr
 use crate::link_load::LoadMeasurement;
 use crate::measure::CameraMeasurement;
 use crate::objective::mark_fronts;
-use crate::point_synthesis::{PointSynthesis, SynthesizedPoint};
-use crate::row::{ClockSource, DesignRow};
+use crate::point_synthesis::{PointSynthesis, SynthesizedPoints};
+use crate::row::{ClockSource, DesignRow, WorstClip};
 use crate::store::MeasurementStore;
 use crate::table::{error_cells, load_cells, name_cells, point_cells, process_cells};
 use crate::{ClipRow, Exploration, ExploreError, ExploreRequest, LoadFigures};
@@ -22,13 +22,12 @@ use crate::{ClipRow, Exploration, ExploreError, ExploreRequest, LoadFigures};
 /// The names of the tables and of the page.
 const POINTS: &str = "points.csv";
 const POINTS_PARQUET: &str = "points.parquet";
-const PARETO: &str = "pareto.csv";
 const CLIPS: &str = "clips.csv";
 const REPORT: &str = "report.html";
-const TABLES: [&str; 5] = [POINTS, POINTS_PARQUET, PARETO, CLIPS, REPORT];
+const TABLES: [&str; 4] = [POINTS, POINTS_PARQUET, CLIPS, REPORT];
 
 /// Runs an exploration and writes `output`. Finished results are kept there, so an interrupted run
-/// can continue.
+/// can continue. The tables and the page are written when the errors are known, and again as areas arrive.
 ///
 /// # Errors
 /// Fails if an input cannot be read, no point is a valid design, the folder holds something else or
@@ -49,10 +48,16 @@ pub fn explore(
     claim_folder(output)?;
     write_mark(output, UNFINISHED_MARK)?;
     let store = MeasurementStore::open(output)?;
-    let results = PointResults::measure(request, &work, &store, hooks)?;
-    let measured = (results.cameras.as_slice(), work.camera_of_point.as_slice());
+    let mut results = PointResults::measure(request, &work, &store)?;
+    if let Some(own) = request.synthesis {
+        let synthesis = PointSynthesis::new(own, &work.footage, &store, hooks);
+        while results.unsynthesized() > 0 {
+            results.write(&results.exploration(request, &work), &work, output)?;
+            synthesis.synthesize_next(&results.designs, &mut results.synthesized)?;
+        }
+    }
     let exploration = results.exploration(request, &work);
-    write(&exploration, measured, &results.loads, output)?;
+    results.write(&exploration, &work, output)?;
     Ok(exploration)
 }
 
@@ -63,9 +68,8 @@ struct PointResults {
     /// The load of every clip and point; empty if the space has no link.
     loads: Vec<Vec<Option<LoadFigures>>>,
     designs: Vec<Design>,
-    synthesized: Vec<SynthesizedPoint>,
-    /// The designs for which a tool failed, with the reasons.
-    failed: Vec<String>,
+    /// The results of synthesizing the designs, as far as they are known; without synthesis empty results.
+    synthesized: SynthesizedPoints,
 }
 
 impl PointResults {
@@ -73,35 +77,49 @@ impl PointResults {
         request: &ExploreRequest<'_>,
         work: &ExplorationWork<'_>,
         store: &MeasurementStore,
-        hooks: &dyn RunHooks,
     ) -> Result<Self, ExploreError> {
         let designs = work.points.iter().map(|point| point.config.validate());
         let designs = designs.collect::<Result<Vec<_>, _>>()?;
         let loads = LoadMeasurement::of_space(request.space, &work.footage);
         let loads = loads.map(|loads| loads.measure_clips(&designs, store)).transpose()?;
         let cameras = work.footage.measure_clips(&work.cameras, store)?;
-        let (synthesized, failed) = match request.synthesis {
-            Some(own) => {
-                PointSynthesis::new(own, &work.footage, store, hooks).synthesize(&designs)?
-            }
-            None => (vec![SynthesizedPoint::default(); designs.len()], Vec::new()),
-        };
-        Ok(Self { cameras, loads: loads.unwrap_or_default(), designs, synthesized, failed })
+        let mut synthesized = SynthesizedPoints::default();
+        if request.synthesis.is_none() {
+            synthesized.points.resize_with(designs.len(), Default::default);
+        }
+        Ok(Self { cameras, loads: loads.unwrap_or_default(), designs, synthesized })
+    }
+
+    /// Returns the number of designs that are still to be synthesized.
+    fn unsynthesized(&self) -> usize {
+        self.designs.len() - self.synthesized.points.len()
     }
 
     /// Returns the points with their figures and fronts.
     fn rows(&self, work: &ExplorationWork<'_>, clocks: ClockSource) -> Vec<DesignRow> {
         let mut rows = Vec::new();
-        for (index, (design, synthesized)) in self.designs.iter().zip(&self.synthesized).enumerate()
-        {
+        let clips = work.footage.clips.clips();
+        for (index, design) in self.designs.iter().enumerate() {
             let camera = work.camera_of_point[index];
             let measured: Vec<&CameraMeasurement> =
                 self.cameras.iter().map(|clip| &clip[camera]).collect();
             let settings = work.points[index].settings.clone();
             let row = (index + 1, settings);
-            let row = DesignRow::new(row, design, &measured, synthesized.clone(), clocks);
+            let synthesized = self.synthesized.points.get(index).cloned().unwrap_or_default();
+            let row = DesignRow::new(row, design, &measured, synthesized, clocks);
             let load = LoadFigures::of_clips(self.loads.iter().map(|clip| clip[index]));
-            rows.extend(row.map(|row| DesignRow { load, ..row }));
+            let flips = clips.iter().zip(&measured).map(|(clip, measured)| WorstClip {
+                name: clip.name.clone(),
+                action_flips: measured.tally.figures().action_flips,
+            });
+            let worst_clip =
+                flips.reduce(
+                    |worst, clip| {
+                        if clip.action_flips > worst.action_flips { clip } else { worst }
+                    },
+                );
+            let worst_clip = worst_clip.filter(|worst| clips.len() > 1 && worst.action_flips > 0.0);
+            rows.extend(row.map(|row| DesignRow { load, worst_clip, ..row }));
         }
         mark_fronts(&mut rows, clocks.has_process);
         rows
@@ -119,9 +137,9 @@ impl PointResults {
             let problem = measured.iter().find_map(|one| one.problem.as_ref());
             problems.extend(problem.map(|problem| format!("{}: {problem}", input.name)));
         }
-        problems.extend(self.failed.iter().cloned());
+        problems.extend(self.synthesized.problems.iter().cloned());
         Exploration {
-            format_version: 5,
+            format_version: 6,
             program: concat!("foveate ", env!("CARGO_PKG_VERSION")).to_owned(),
             clips,
             size: work.footage.size,
@@ -136,65 +154,69 @@ impl PointResults {
             rows: self.rows(work, clocks),
             refused: work.refused.clone(),
             problems,
+            awaited_areas: self.unsynthesized(),
         }
     }
-}
 
-fn write(
-    exploration: &Exploration,
-    (measured, camera_of_point): (&[Vec<CameraMeasurement>], &[usize]),
-    loads: &[Vec<Option<LoadFigures>>],
-    output: &Path,
-) -> Result<(), ExploreError> {
-    let (rows, has_link) = (&exploration.rows, exploration.link_bits_per_second.is_some());
-    let point = |row: &DesignRow| {
-        let mut cells = point_cells(row, &exploration.axes);
-        if exploration.library.is_some() {
-            cells.extend(process_cells(row));
-        }
-        cells
-    };
-    let with_load = |mut cells: NamedCells, load: Option<LoadFigures>| {
-        if has_link {
-            cells.extend(load_cells(load.as_ref()));
-        }
-        cells
-    };
-    let table = |rows: &mut dyn Iterator<Item = &DesignRow>| {
-        let cells = |row: &DesignRow| with_load(point(row), row.load);
-        Table::from_rows(rows.map(cells))
-    };
-    let points = table(&mut rows.iter());
-    let parquet = points.to_parquet("points");
-    let parquet = parquet.map_err(ExploreError::io("write", &output.join(POINTS_PARQUET)))?;
-    let pareto = table(&mut rows.iter().filter(|row| row.front.all));
-    let clips = exploration.clips.iter().zip(measured).enumerate();
-    let clips = clips.flat_map(|(number, (clip, measured))| {
-        rows.iter().map(move |row| {
-            let figures = measured[camera_of_point[row.number - 1]].tally.figures();
-            let mut cells = name_cells(row.number, &clip.name);
-            cells.extend(error_cells(&figures));
-            with_load(cells, loads.get(number).and_then(|clip| clip[row.number - 1]))
-        })
-    });
-    let mut files = vec![
-        (POINTS.to_owned(), points.to_csv().into_bytes()),
-        (POINTS_PARQUET.to_owned(), parquet),
-        (PARETO.to_owned(), pareto.to_csv().into_bytes()),
-        (CLIPS.to_owned(), Table::from_rows(clips).to_csv().into_bytes()),
-    ];
-    let design = |row: &DesignRow| (design_file(row.number), row.config.to_toml().into_bytes());
-    files.extend(rows.iter().map(design));
-    files.push((REPORT.to_owned(), crate::report::render_page(exploration)?.into_bytes()));
-    // This file is written last, because it marks the exploration as complete. It is plain data
-    // with text keys, so it cannot fail.
-    let json = serde_json::to_string_pretty(exploration)
-        .expect("it has no map with other keys than text")
-        + "\n";
-    files.push((MARK_FILE.to_owned(), json.into_bytes()));
-    // Designs of an earlier, larger space are removed, because their numbers would belong to other
-    // points.
-    Ok(open_continued(output)?.write(&files)?)
+    /// Writes the tables, the configurations and the page.
+    fn write(
+        &self,
+        exploration: &Exploration,
+        work: &ExplorationWork<'_>,
+        output: &Path,
+    ) -> Result<(), ExploreError> {
+        let (rows, has_link) = (&exploration.rows, exploration.link_bits_per_second.is_some());
+        let point = |row: &DesignRow| {
+            let mut cells = point_cells(row, &exploration.axes);
+            if exploration.library.is_some() {
+                cells.extend(process_cells(row));
+            }
+            cells
+        };
+        let with_load = |mut cells: NamedCells, load: Option<LoadFigures>| {
+            if has_link {
+                cells.extend(load_cells(load.as_ref()));
+            }
+            cells
+        };
+        let table = |rows: &mut dyn Iterator<Item = &DesignRow>| {
+            let cells = |row: &DesignRow| with_load(point(row), row.load);
+            Table::from_rows(rows.map(cells))
+        };
+        let points = table(&mut rows.iter());
+        let parquet = points.to_parquet("points");
+        let parquet = parquet.map_err(ExploreError::io("write", &output.join(POINTS_PARQUET)))?;
+        let clips = exploration.clips.iter().zip(&self.cameras).enumerate();
+        let clips = clips.flat_map(|(number, (clip, measured))| {
+            rows.iter().map(move |row| {
+                let figures = measured[work.camera_of_point[row.number - 1]].tally.figures();
+                let mut cells = name_cells(row.number, &clip.name);
+                cells.extend(error_cells(&figures));
+                with_load(cells, self.loads.get(number).and_then(|clip| clip[row.number - 1]))
+            })
+        });
+        let mut files = vec![
+            (POINTS.to_owned(), points.to_csv().into_bytes()),
+            (POINTS_PARQUET.to_owned(), parquet),
+            (CLIPS.to_owned(), Table::from_rows(clips).to_csv().into_bytes()),
+        ];
+        let design = |row: &DesignRow| (design_file(row.number), row.config.to_toml().into_bytes());
+        files.extend(rows.iter().map(design));
+        files.push((REPORT.to_owned(), crate::report::render_page(exploration)?.into_bytes()));
+        // This file is written last, because it marks the exploration as complete. It is plain data
+        // with text keys, so it cannot fail.
+        let mark = match self.unsynthesized() {
+            0 => {
+                let json = serde_json::to_string_pretty(exploration);
+                json.expect("it has no map with other keys than text") + "\n"
+            }
+            _ => UNFINISHED_MARK.to_owned(),
+        };
+        files.push((MARK_FILE.to_owned(), mark.into_bytes()));
+        // Designs of an earlier, larger space are removed, because their numbers would belong to other
+        // points.
+        Ok(open_continued(output)?.write(&files)?)
+    }
 }
 
 /// Returns the name of the configuration file of a point.

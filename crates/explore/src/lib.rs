@@ -43,7 +43,7 @@ pub use cost::{DesignArea, Synthesizer};
 pub use design_disturbance::{DisturbanceRow, disturb_design};
 pub use disturbance::Disturbance;
 pub use error::ExploreError;
-pub use exploration::{ClipRow, Exploration};
+pub use exploration::{ClipRow, DesignFront, Exploration};
 pub use explore::explore;
 pub use fit::{
     ActivityTarget, AgreementEstimate, ConstraintCheck, Constraints, CostObjective, FitRequest,
@@ -55,7 +55,7 @@ pub use link_load::LoadFigures;
 pub use method::{SamplingMethod, SpaceAxis};
 pub use point::{DesignPoint, RefusedCombination};
 pub use request::{ExploreRequest, ProcessRequest, SynthesisRequest};
-pub use row::{DesignRow, FrontMembership};
+pub use row::{DesignRow, FrontMembership, WorstClip};
 pub use space::{BUILT_IN_SPACES, BuiltInSpace, DesignSpace};
 pub use target_process::{ProcessEnergy, ProcessFigures, TargetProcess};
 pub use unit::{WorkUnit, measure_unit, plan_units};

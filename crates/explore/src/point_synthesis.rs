@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 
 use foveate_design::Design;
 use foveate_estimate::SiliconReport;
-use foveate_playback::{PlaybackError, RunHooks};
+use foveate_playback::{PlaybackError, RunHooks, RunProgress};
 
 use crate::cost::{ResultsByRtl, SynthesisResult};
 use crate::footage::ExplorationFootage;
@@ -22,6 +22,15 @@ pub(crate) struct SynthesizedPoint {
     pub(crate) fpga: Option<SynthesisResult>,
     /// The figures in the process; `None` without one, or if a tool failed.
     pub(crate) process: Option<ProcessFigures>,
+}
+
+/// The results of synthesizing points.
+#[derive(Debug, Default)]
+pub(crate) struct SynthesizedPoints {
+    /// The results of the first points, as far as they are known.
+    pub(crate) points: Vec<SynthesizedPoint>,
+    /// The points for which a tool failed, with the reasons.
+    pub(crate) problems: Vec<String>,
 }
 
 /// The synthesis of the points of an exploration.
@@ -65,25 +74,44 @@ impl<'a> PointSynthesis<'a> {
         Self { synthesizer, process, energy_clips, hooks }
     }
 
-    /// Synthesizes designs. Returns the results, and the errors of tools. A design that fails does not lose the
-    /// others.
+    /// Synthesizes the next of all designs, as many at a time as keep the processors busy, and adds the results and the
+    /// errors of tools to `found`. A design that fails does not lose the others.
     ///
     /// # Errors
     /// Fails if the hooks cancel.
-    pub(crate) fn synthesize(
+    pub(crate) fn synthesize_next(
         &self,
         designs: &[Design],
-    ) -> Result<(Vec<SynthesizedPoint>, Vec<String>), ExploreError> {
-        let areas = self.synthesizer.synthesize_designs(designs.iter(), self.hooks)?;
+        found: &mut SynthesizedPoints,
+    ) -> Result<(), ExploreError> {
+        let first = found.points.len();
+        let hooks =
+            PartHooks { hooks: self.hooks, before: first as u64, all: designs.len() as u64 };
+        let at_once = (2 * rayon::current_num_threads()).max(8).max(designs.len().div_ceil(16));
+        let designs = &designs[first..designs.len().min(first + at_once)];
+        let (points, errors) = self.synthesize(designs, &hooks)?;
+        found.points.extend(points);
+        let problem = |(index, error)| format!("point {}: {error}", first + index + 1);
+        found.problems.extend(errors.into_iter().map(problem));
+        Ok(())
+    }
+
+    /// Synthesizes designs. Returns the results, and the errors of tools with the indices of their designs.
+    fn synthesize(
+        &self,
+        designs: &[Design],
+        hooks: &dyn RunHooks,
+    ) -> Result<(Vec<SynthesizedPoint>, Vec<(usize, String)>), ExploreError> {
+        let areas = self.synthesizer.synthesize_designs(designs.iter(), hooks)?;
         let mut problems = problems_of(&areas);
         let areas = areas.iter().map(|area| area.ok().cloned());
         let mut points: Vec<_> =
             areas.map(|fpga| SynthesizedPoint { fpga, process: None }).collect();
         if let Some(ProcessRequest { process, .. }) = self.process {
-            let mapped = process.map_designs(self.synthesizer, designs.iter(), self.hooks)?;
+            let mapped = process.map_designs(self.synthesizer, designs.iter(), hooks)?;
             problems.extend(problems_of(&mapped));
             let reports: Vec<Option<&SiliconReport>> = mapped.iter().map(Result::ok).collect();
-            let mut energies = self.measure_energies(designs, &reports, &mut problems)?;
+            let mut energies = self.measure_energies(designs, &reports, hooks, &mut problems)?;
             for (index, (point, report)) in points.iter_mut().zip(reports).enumerate() {
                 let energy = energies.remove(&index);
                 let figures = report.map(ProcessFigures::from_report);
@@ -98,7 +126,8 @@ impl<'a> PointSynthesis<'a> {
         &self,
         designs: &[Design],
         reports: &[Option<&SiliconReport>],
-        problems: &mut Vec<String>,
+        hooks: &dyn RunHooks,
+        problems: &mut Vec<(usize, String)>,
     ) -> Result<BTreeMap<usize, ProcessEnergy>, ExploreError> {
         let Some(clips) = &self.energy_clips else { return Ok(BTreeMap::new()) };
         let mapped = designs.iter().zip(reports).enumerate();
@@ -112,10 +141,10 @@ impl<'a> PointSynthesis<'a> {
                 result => Ok((index, result)),
             };
         let mut energies = BTreeMap::new();
-        for (index, result) in EnergyClips::measure_all(mapped.collect(), self.hooks, measure)? {
+        for (index, result) in EnergyClips::measure_all(mapped.collect(), hooks, measure)? {
             match result {
                 Ok(energy) => energies.extend(energy.map(|energy| (index, energy))),
-                Err(error) => problems.push(problem_text(index, &error)),
+                Err(error) => problems.push((index, error.to_string())),
             }
         }
         Ok(energies)
@@ -132,11 +161,26 @@ fn energy_clips<'a>(
     Some(EnergyClips::new(process, &footage.clips, whole, Some(energy_rate?)))
 }
 
-fn problems_of<T: Send + Clone>(results: &ResultsByRtl<T>) -> Vec<String> {
+fn problems_of<T: Send + Clone>(results: &ResultsByRtl<T>) -> Vec<(usize, String)> {
     let errors = results.iter().enumerate();
-    errors.filter_map(|(index, result)| Some(problem_text(index, result.err()?))).collect()
+    errors.filter_map(|(index, result)| Some((index, result.err()?.to_string()))).collect()
 }
 
-fn problem_text(index: usize, error: &ExploreError) -> String {
-    format!("point {}: {error}", index + 1)
+/// The hooks of a part of the steps of a run, which reports progress as a part of all steps.
+struct PartHooks<'a> {
+    hooks: &'a dyn RunHooks,
+    /// The number of steps before this part.
+    before: u64,
+    all: u64,
+}
+
+impl RunHooks for PartHooks<'_> {
+    fn progress(&self, part: &RunProgress<'_>) {
+        let (done, total) = (self.before + part.done, part.total.map(|_| self.all));
+        self.hooks.progress(&RunProgress { done, total, ..part.clone() });
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.hooks.is_cancelled()
+    }
 }

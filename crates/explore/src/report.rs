@@ -22,7 +22,7 @@ use foveate_pictures::page::{
     number_text,
 };
 
-use crate::{DesignRow, Exploration, ExploreError, FrontMembership, RefusedCombination};
+use crate::{DesignFront, DesignRow, Exploration, ExploreError};
 use card::PointCard;
 use colour::PointGrouping;
 use setting::PointSettings;
@@ -30,8 +30,6 @@ use table::MeasuredGroups;
 
 /// The most points that a page shows; with more it would be too large to open.
 const MAX_POINTS_SHOWN: usize = 2000;
-/// The most refused combinations that a page shows.
-const MAX_REFUSED_SHOWN: usize = 500;
 /// The targets of the links of a mark.
 const TARGETS: [LinkTarget; 2] = [
     LinkTarget { prefix: "p", name: "its row" },
@@ -39,7 +37,7 @@ const TARGETS: [LinkTarget; 2] = [
 ];
 /// The text at the end of the page.
 const FOOTER: &str = "Everything here is also in the files beside this page: <code>points.csv</code>, \
-    <code>points.parquet</code>, <code>pareto.csv</code>, <code>clips.csv</code>, \
+    <code>points.parquet</code>, <code>clips.csv</code>, \
     <code>exploration.json</code> and a configuration of every point in \
     <code>designs</code>.";
 
@@ -52,7 +50,6 @@ struct AboutSection<'a> {
     camera: String,
     ideal: &'a str,
     findings: Vec<String>,
-    refused: &'a [RefusedCombination],
 }
 
 /// The other sections.
@@ -61,17 +58,13 @@ struct AboutSection<'a> {
 struct MainSections<'a> {
     groupings: Vec<PointGrouping>,
     plots: Vec<PagePlot>,
-    has_synthesis: bool,
-    /// The figures of the front of all, for a sentence.
-    front_figures: &'static str,
-    front: SortableTable<'a>,
+    has_areas: bool,
+    fronts: Vec<DesignFront<'a>>,
+    settings: &'a PointSettings,
     points: SortableTable<'a>,
     cards: Vec<PointCard>,
     /// The number of points that are not shown.
     hidden: usize,
-    refused: &'a [RefusedCombination],
-    /// The number of refused combinations that are not shown.
-    hidden_refused: usize,
 }
 
 /// The script that colours points by another axis.
@@ -96,48 +89,51 @@ pub(crate) fn render_page(exploration: &Exploration) -> Result<String, ExploreEr
         silicon: exploration.library.is_some(),
         energy: exploration.energy_rate.is_some(),
         link: exploration.link_bits_per_second.is_some(),
+        clips: exploration.clips.len() > 1,
     };
     let columns = table::columns(&settings, groups);
     let lines: Vec<TableRow> =
         rows.iter().map(|row| table::point_row(row, &settings, groups)).collect();
-    let table = |prefix, tall, rows| SortableTable {
-        prefix,
-        number: "number of the point",
-        link: "all figures of the point, with its configuration",
-        tall,
-        marks_best: tall,
-        columns: &columns,
-        rows,
-    };
-    let refused = exploration.refused.get(..MAX_REFUSED_SHOWN).unwrap_or(&exploration.refused);
     let about = AboutSection {
         clips: &exploration.clips,
         clip_names: summary::clips(exploration),
         camera: setting::camera_line(&exploration.ideal),
         ideal: exploration.ideal.trim_end(),
-        findings: summary::findings(exploration, &settings),
-        refused,
+        findings: summary::findings(exploration),
     };
     let main = MainSections {
         groupings,
         plots,
-        has_synthesis,
-        front_figures: exploration.front_figures(),
-        front: table("f", false, lines.iter().filter(|line| line.best).collect()),
-        points: table("p", true, lines.iter().collect()),
+        has_areas: has_synthesis || exploration.awaited_areas > 0,
+        fronts: exploration.fronts(),
+        settings: &settings,
+        points: SortableTable {
+            prefix: "p",
+            number: "number of the point",
+            link: "all figures of the point, with its configuration",
+            tall: true,
+            marks_best: true,
+            columns: &columns,
+            rows: lines.iter().collect(),
+        },
         cards: rows.iter().map(|row| PointCard::new(row, &settings)).collect(),
         hidden: exploration.rows.len() - rows.len(),
-        refused,
-        hidden_refused: exploration.refused.len() - refused.len(),
     };
     let title = summary::title(exploration);
     let failed =
         |error: askama::Error| PageError { page: title.clone(), problem: error.to_string() };
+    let awaited = (exploration.awaited_areas > 0).then(|| {
+        let (awaited, all) = (exploration.awaited_areas, exploration.rows.len());
+        format!("The areas of {awaited} of {all} designs are not known yet. This page is written again as they arrive.")
+    });
     let page = ResultPage {
         kind: "Exploration",
         program: &exploration.program,
         title: &title,
-        notices: &[PageNotice { title: "Not complete", lines: &exploration.problems }],
+        notices: &[
+            PageNotice { title: "Not complete", lines: &exploration.problems },
+            PageNotice { title: "Still running", lines: awaited.as_slice() },
+        ],
         facts: &summary::facts(exploration),
         about: &about.render().map_err(failed)?,
         main: &main.render().map_err(failed)?,
@@ -151,10 +147,7 @@ pub(crate) fn render_page(exploration: &Exploration) -> Result<String, ExploreEr
 /// Returns all points that a page shows. If there are too many, these are the points of the fronts
 /// and an even sample of the others.
 fn points_shown(rows: &[DesignRow]) -> Vec<&DesignRow> {
-    let front = |row: &DesignRow| {
-        let FrontMembership { speed, area, energy, all } = row.front;
-        speed || area || energy || all
-    };
+    let front = |row: &DesignRow| row.front.any();
     let fronts = rows.iter().filter(|row| front(row)).count();
     let others = rows.len() - fronts;
     let every = others.div_ceil(MAX_POINTS_SHOWN.saturating_sub(fronts).max(1)).max(1);

@@ -3,7 +3,7 @@
 
 use foveate_camera::Camera;
 use foveate_design::{Design, DesignConfig};
-use foveate_estimate::FrameRate;
+use foveate_estimate::{FpgaDevice, FrameRate};
 use foveate_fidelity::{ErrorTally, FidelityFigures};
 use serde::Serialize;
 
@@ -12,6 +12,9 @@ use crate::cost::DesignArea;
 use crate::measure::CameraMeasurement;
 use crate::point_synthesis::SynthesizedPoint;
 use crate::target_process::{ProcessEnergy, ProcessFigures, reachable_clock};
+
+/// The largest share of missed regions, and of false alarms, of a design on a front.
+const MAX_DECISION_ERROR: f64 = 0.1;
 
 /// A design with its errors, costs and speed.
 #[derive(Clone, Debug, Serialize)]
@@ -28,6 +31,8 @@ pub struct DesignRow {
     pub fingerprint: String,
     /// The errors over all clips.
     pub figures: FidelityFigures,
+    /// The clip with the largest share of flipped actions, if there are several clips and any flips.
+    pub worst_clip: Option<WorstClip>,
     /// The bytes per frame that leave the array: 2 bits per region, the pixels of active regions,
     /// and the means of summaries.
     pub bytes_per_frame: f64,
@@ -49,20 +54,35 @@ pub struct DesignRow {
     pub front: FrontMembership,
 }
 
-/// The fronts that a point is on.
+/// The fronts that a point is on. A point that misses more than 10 % or has more than 10 % false alarms is on
+/// none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct FrontMembership {
     /// True if the point is on the front of error and speed.
     pub speed: bool,
-    /// True if the point is on the front of error and area of the array: square millimetres with a process,
-    /// LUTs without one. A point without that area is not on it.
+    /// True if the point is on the front of error and area of the array: square millimetres with a process, the
+    /// share of the device without one. A point without that area is not on it.
     pub area: bool,
     /// True if the point is on the front of error and energy of a region in a frame. A point whose energy was not
     /// measured is not on it.
     pub energy: bool,
-    /// True if the point is on the front of error, speed and area of the array; without areas, equal to
-    /// `speed`.
-    pub all: bool,
+}
+
+impl FrontMembership {
+    /// Returns true if the point is on a front.
+    #[must_use]
+    pub fn any(self) -> bool {
+        self.speed || self.area || self.energy
+    }
+}
+
+/// The clip on which a design flips the largest share of actions.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct WorstClip {
+    /// The name of the clip.
+    pub name: String,
+    /// The share of flipped actions over this clip alone, 0..=1.
+    pub action_flips: f64,
 }
 
 /// The clocks that give designs their frame rates.
@@ -112,14 +132,24 @@ impl DesignRow {
             silicon: fpga.map(|fpga| fpga.silicon),
             process,
             figures,
+            worst_clip: None,
             load: None,
             front: FrontMembership::default(),
         })
     }
 
-    /// Returns the LUTs of the array, including those used as memory, with two SRL16 in one LUT.
-    pub(crate) fn luts(&self) -> Option<f64> {
-        self.silicon.as_ref().map(|silicon| count_to_f64(silicon.array.lut_total_packed))
+    /// Returns true if the design does the task well enough to be on a front: it misses at most 10 % and has at
+    /// most 10 % false alarms. A design that sends almost nothing has few flips, too.
+    #[must_use]
+    pub fn qualifies(&self) -> bool {
+        self.figures.missed <= MAX_DECISION_ERROR && self.figures.false_alarms <= MAX_DECISION_ERROR
+    }
+
+    /// Returns the share of the device that the array takes, 0..=1, as [`fit`](crate::fit) counts it; `None` without
+    /// an area.
+    #[must_use]
+    pub fn device_share(&self) -> Option<f64> {
+        self.silicon.as_ref().map(|silicon| FpgaDevice::xcvu9p().cost(&silicon.array))
     }
 
     /// Returns the measured energy in the process, if there is one.

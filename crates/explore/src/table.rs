@@ -16,6 +16,11 @@ pub(crate) fn point_cells(row: &DesignRow, axes: &[String]) -> NamedCells {
     let settings = axes.iter().zip(&row.settings);
     cells.extend(settings.map(|(axis, value)| (axis.clone(), TableCell::Text(value.clone()))));
     cells.extend(error_cells(&row.figures));
+    let worst = row.worst_clip.as_ref();
+    let name = worst.map(|clip| clip.name.clone()).unwrap_or_default();
+    cells.push(("worst_clip".to_owned(), TableCell::Text(name)));
+    let flips = TableCell::Real(worst.map(|clip| clip.action_flips));
+    cells.push(("worst_clip_flips".to_owned(), flips));
     let area = row.silicon.as_ref();
     let of = |take: fn(&crate::DesignArea) -> u64| TableCell::Count(area.map(take));
     let at = |take: fn(&FrameRate) -> f64| TableCell::Real(row.speed.as_ref().map(take));
@@ -36,11 +41,11 @@ pub(crate) fn point_cells(row: &DesignRow, axes: &[String]) -> NamedCells {
             ("lutram", of(|area| area.array.lut_memory_packed)),
             ("ramb36", TableCell::Real(area.map(|area| count_to_f64(area.array.bram18) / 2.0))),
             ("dsp", of(|area| area.array.dsp)),
+            ("device_share", TableCell::Real(row.device_share())),
             ("logic_levels", of(|area| area.logic_levels.into())),
             ("front_speed", TableCell::Flag(row.front.speed)),
             ("front_area", TableCell::Flag(row.front.area)),
             ("front_energy", TableCell::Flag(row.front.energy)),
-            ("front", TableCell::Flag(row.front.all)),
             ("fingerprint", TableCell::Text(row.fingerprint.clone())),
         ]
         .map(|(name, cell)| (name.to_owned(), cell)),

@@ -11,11 +11,11 @@ use super::input::InputArgs;
 use super::process::ProcessArgs;
 use super::threads::ThreadArgs;
 
-/// Measure many designs over clips: error against the ideal camera, area, speed, Pareto front
+/// Measure many designs over clips: error against the ideal camera, area, speed, Pareto fronts
 ///
-/// Writes points.csv, points.parquet, clips.csv, pareto.csv, a configuration for every point and
-/// report.html. Finished results stay in the folder: if you run the same command again after an
-/// interrupt, or with a larger space, it computes only what is missing.
+/// Writes points.csv, points.parquet, clips.csv, a configuration for every point and report.html: first
+/// when the errors are known, and again as areas arrive. Finished results stay in the folder: if you run
+/// the same command again after an interrupt, or with a larger space, it computes only what is missing.
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate explore approximations scene:street -o out
           foveate explore space.toml street.mp4 bus.mp4 -o out --resize 640x360

@@ -5,8 +5,8 @@ use foveate_estimate::ramb36;
 use foveate_pictures::page::number_text::{grouped, percent, real_number};
 
 use super::setting::PointSettings;
-use super::summary::cost_text;
 use super::table::psnr_cell;
+use crate::objective::Objective;
 use crate::{DesignRow, ProcessFigures};
 
 /// The card of a point on the page.
@@ -30,7 +30,14 @@ impl PointCard {
                 "Flipped actions, SRS, TRS",
                 [figures.action_flips, figures.srs_flips, figures.trs_flips].map(share).join(", "),
             ),
-            ("Active, of the ideal", [figures.active, figures.ideal_active].map(share).join(", ")),
+            (
+                "Active, of the ideal, IoU",
+                format!(
+                    "{}, {}",
+                    [figures.active, figures.ideal_active].map(share).join(", "),
+                    real_number(figures.active_iou, 4)
+                ),
+            ),
             (
                 "PSNR and SSIM to the input",
                 format!(
@@ -78,7 +85,7 @@ impl PointCard {
         let fingerprint = ("Fingerprint".to_owned(), row.fingerprint.clone());
         Self {
             number: row.number,
-            front: row.front.all,
+            front: row.front.any(),
             settings: settings.settings_text(row, None),
             facts: facts.chain(scores).chain([fingerprint]).collect(),
             toml: row.config.to_toml(),
@@ -88,21 +95,47 @@ impl PointCard {
 
 /// Returns the text of the mark of a point.
 pub(crate) fn mark_title(row: &DesignRow, settings: &PointSettings) -> String {
-    let figures = &row.figures;
-    format!(
-        "Point {}: {}\n{} % flipped, {} % missed, {} % false alarms\n{}, {} bytes/frame{}",
-        row.number,
-        settings.settings_text(row, None),
-        percent(figures.action_flips),
-        percent(figures.missed),
-        percent(figures.false_alarms),
-        row.speed.map_or_else(
-            || format!("{} clocks per frame", grouped(row.clocks_per_frame)),
-            |speed| speed.text()
-        ),
-        real_number(row.bytes_per_frame, 0),
-        cost_text(row),
-    )
+    let [errors, costs] = row.figure_lines();
+    format!("Point {}: {}\n{errors}\n{costs}", row.number, settings.settings_text(row, None))
+}
+
+impl DesignRow {
+    /// Returns the figures of the decisions in a line, and the speed and the known costs in another one.
+    #[must_use]
+    pub fn figure_lines(&self) -> [String; 2] {
+        let figures = &self.figures;
+        let mut errors = format!(
+            "{} % flipped, {} % missed, {} % false alarms, {} % stale",
+            percent(figures.action_flips),
+            percent(figures.missed),
+            percent(figures.false_alarms),
+            percent(figures.stale_regions)
+        );
+        if let Some(clip) = &self.worst_clip {
+            errors +=
+                &format!("; worst clip: {}, {} % flipped", clip.name, percent(clip.action_flips));
+        }
+        let speed = match self.speed {
+            Some(speed) => speed.text(),
+            None => format!("{} clocks per frame", grouped(self.clocks_per_frame)),
+        };
+        let share = self.silicon.as_ref().zip(self.device_share()).map(|(silicon, share)| {
+            let area = &silicon.array;
+            let blocks = match area.bram18 {
+                0 => String::new(),
+                blocks => format!(" and {} RAMB36", ramb36(blocks)),
+            };
+            format!(
+                ", {} LUTs{blocks}, {:.3} % of the device",
+                grouped(area.lut_total_packed),
+                100.0 * share
+            )
+        });
+        let mm2 = Objective::Mm2.value_of(self).map(|mm2| format!(", {mm2:.3} mm²"));
+        let energy = Objective::Energy.value_of(self).map(|nj| format!(", {nj:.3} nJ per region"));
+        let costs: String = [share, mm2, energy].into_iter().flatten().collect();
+        [errors, format!("{speed}, {} bytes/frame{costs}", real_number(self.bytes_per_frame, 0))]
+    }
 }
 
 /// Returns the cost of a design in a process.

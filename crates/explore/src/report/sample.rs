@@ -8,6 +8,7 @@ use crate::objective::mark_fronts;
 use crate::row::count_to_f64;
 use crate::{
     ClipRow, DesignArea, DesignRow, DesignSpace, Exploration, FrontMembership, RefusedCombination,
+    WorstClip,
 };
 
 fn clock(mhz: f64) -> ClockEstimate {
@@ -68,6 +69,7 @@ pub(crate) fn sample_exploration(space: &str, areas: bool) -> Exploration {
                 logic_levels: 9,
             }),
             process: None,
+            worst_clip: Some(WorstClip { name: "hall.mp4".to_owned(), action_flips: 1.5 * flips }),
             load: None,
             front: FrontMembership::default(),
         });
@@ -93,8 +95,9 @@ pub(crate) fn sample_exploration(space: &str, areas: bool) -> Exploration {
         link_bits_per_second: None,
         axes: space.axes.iter().map(|axis| axis.key.clone()).collect(),
         rows,
-        refused: refused.into_iter().chain([refused_sample()]).collect(),
+        refused: [refused_sample()].into_iter().chain(refused).collect(),
         problems: vec!["hall.mp4: frame 300 of 450 is damaged".to_owned()],
+        awaited_areas: 0,
     }
 }
 

@@ -2,7 +2,7 @@
 //! The plots of error against speed, area and bytes, with a mark for every point of the
 //! exploration.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use foveate_pictures::page::{
     PagePlot, PlotAxes, PlotAxis, PlotLine, PlotMark, coordinate_text, front_path, group_look,
@@ -11,7 +11,7 @@ use foveate_pictures::page::{
 
 use super::colour::PointGrouping;
 use crate::objective::{BetterDirection, FrontObjectives, Objective, unbeaten_rows};
-use crate::{DesignRow, Exploration};
+use crate::{DesignFront, DesignRow, Exploration};
 
 /// A plot of two objectives, with the front of both.
 struct ScatterPlot {
@@ -37,7 +37,7 @@ impl ObjectiveAxis {
             Objective::Error => ("flipped actions, %".to_owned(), 100.0),
             Objective::Speed => (speed_title(exploration), 1.0),
             Objective::PerClock => ("frames per million clocks".to_owned(), 1e6),
-            Objective::Luts => ("LUTs of the array".to_owned(), 1.0),
+            Objective::DeviceShare => ("share of the device, %".to_owned(), 100.0),
             Objective::Mm2 => ("mm² of the array".to_owned(), 1.0),
             Objective::Energy => ("nJ per region and frame".to_owned(), 1.0),
             Objective::Stale => ("stale relevant regions, %".to_owned(), 100.0),
@@ -109,6 +109,12 @@ impl ScatterPlot {
     ) -> PagePlot {
         let field = PlotAxes { x: self.x.axis(rows), y: self.y.axis(rows) };
         let on_front = unbeaten_rows(rows, [self.x.objective, self.y.objective]);
+        let front = std::iter::zip(rows, &on_front).filter(|(_, on)| **on).map(|(row, _)| *row);
+        let front = DesignFront::new(("", ""), front);
+        let named: BTreeSet<usize> = match self.y.objective {
+            Objective::Error => front.named_rows().map(|row| row.number).collect(),
+            _ => BTreeSet::new(),
+        };
         let mut marks = Vec::new();
         let mut steps = Vec::new();
         for (index, row) in rows.iter().enumerate() {
@@ -118,7 +124,10 @@ impl ScatterPlot {
                 steps.push((x, y));
             }
             let title = titles[index].clone();
-            marks.push(mark(row, index, (x, y), on_front[index], groupings, title));
+            let label = named.get(&row.number).map(usize::to_string).unwrap_or_default();
+            let front = on_front[index];
+            let mark = mark(row, index, (x, y), groupings);
+            marks.push(PlotMark { front, title, label, ..mark });
         }
         // Marks that are drawn later lie above the others.
         marks.sort_by_key(|mark| mark.front);
@@ -153,9 +162,7 @@ fn mark(
     row: &DesignRow,
     index: usize,
     (x, y): (f64, f64),
-    front: bool,
     groupings: &[PointGrouping],
-    title: String,
 ) -> PlotMark {
     let group = |grouping: &PointGrouping| grouping.of_row[index];
     let groups: Vec<String> = groupings.iter().map(|one| group(one).to_string()).collect();
@@ -165,12 +172,11 @@ fn mark(
         id: row.number.to_string(),
         x: coordinate_text(x),
         y: coordinate_text(y),
-        front,
-        scale: None,
+        hollow: !row.qualifies(),
         class,
         shape,
         groups: groups.join(" "),
-        title,
+        ..PlotMark::default()
     }
 }
 

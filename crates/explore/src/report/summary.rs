@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The setup and the findings of an exploration in a few lines.
 
-use std::cmp::Ordering;
-
 use foveate_link::LinkRate;
 use foveate_pictures::page::HeadingFigure;
-use foveate_pictures::page::number_text::{MISSING, counted, grouped, percent, real_number};
+use foveate_pictures::page::number_text::{MISSING, counted, grouped, real_number};
 
-use super::setting::PointSettings;
-use crate::objective::{FrontObjectives, Objective};
-use crate::{DesignRow, Exploration};
+use crate::Exploration;
 
 /// Returns the title of the page.
 pub(crate) fn title(exploration: &Exploration) -> String {
@@ -31,9 +27,9 @@ pub(crate) fn clips(exploration: &Exploration) -> String {
 
 /// Returns the figures of the heading.
 pub(crate) fn facts(exploration: &Exploration) -> Vec<HeadingFigure> {
-    let Exploration { rows, refused, clips, axes, .. } = exploration;
+    let Exploration { rows, clips, axes, .. } = exploration;
     let frames = clips.iter().map(|clip| clip.frames).sum();
-    let front = rows.iter().filter(|row| row.front.all).count();
+    let front = rows.iter().filter(|row| row.front.any()).count();
     let (width, height) = exploration.size;
     let fact = |name, value, note| HeadingFigure { name, value, note };
     let count = |count: usize| grouped(count as u64);
@@ -46,8 +42,7 @@ pub(crate) fn facts(exploration: &Exploration) -> Vec<HeadingFigure> {
                 axes => format!("{} varied", counted(axes.len(), "setting")),
             },
         ),
-        fact("Pareto front", count(front), format!("of {}", exploration.front_figures())),
-        fact("Refused", count(refused.len()), "combinations".to_owned()),
+        fact("On a front", count(front), "no other one is better".to_owned()),
         fact("Frames", grouped(frames), counted(clips.len(), "clip")),
         fact("Frame", format!("{width}×{height}"), "pixels".to_owned()),
         clock(exploration),
@@ -92,52 +87,24 @@ fn clock(exploration: &Exploration) -> HeadingFigure {
     HeadingFigure { name: "Clock", value, note: note.to_owned() }
 }
 
-/// Describes the ends of the front.
-pub(crate) fn findings(exploration: &Exploration, settings: &PointSettings) -> Vec<String> {
-    let rows = &exploration.rows;
-    let FrontObjectives { speed: fast, area: small, .. } = exploration.front_objectives();
-    let front = || rows.iter().filter(|row| row.front.all);
-    let by_error = |one: &&DesignRow, other: &&DesignRow| {
-        one.figures.action_flips.total_cmp(&other.figures.action_flips)
-    };
-    let speed = |row: &DesignRow| match row.speed {
-        Some(speed) => speed.text(),
-        None => format!("{} clocks per frame", grouped(row.clocks_per_frame)),
-    };
-    let flips =
-        |row: &DesignRow| format!("{} % flipped actions", percent(row.figures.action_flips));
-    let mut found = Vec::new();
-    let mut say = |what: &str, row: Option<&DesignRow>| {
-        found.extend(row.map(|row| {
-            let settings = settings.settings_text(row, None);
-            let (flips, speed, costs) = (flips(row), speed(row), cost_text(row));
-            format!("{what}: point {} ({settings}), {flips} at {speed}{costs}.", row.number)
-        }));
-    };
-    say("Smallest error", front().min_by(by_error));
-    let fastest = front().max_by(|one, other| {
-        let order = fast.value_of(one).partial_cmp(&fast.value_of(other));
-        order.unwrap_or(Ordering::Equal).then_with(|| by_error(other, one))
+/// Says what is on no front and what could not be built.
+pub(crate) fn findings(exploration: &Exploration) -> Vec<String> {
+    let useless = exploration.rows.iter().filter(|row| !row.qualifies()).count();
+    let useless = (useless > 0).then(|| {
+        format!(
+            "{} of {} miss more than 10 % of the active regions or have more than 10 % false alarms. Plots show them \
+             hollow, and they are on no front.",
+            grouped(useless as u64),
+            counted(exploration.rows.len(), "design")
+        )
     });
-    say("Fastest", fastest);
-    say("Smallest area", least(front(), small));
-    say("Least energy", least(rows.iter().filter(|row| row.front.energy), Objective::Energy));
-    found
-}
-
-/// Returns the point with the smallest value of an objective.
-fn least<'a>(
-    rows: impl Iterator<Item = &'a DesignRow>,
-    objective: Objective,
-) -> Option<&'a DesignRow> {
-    let known = rows.filter_map(|row| Some((objective.value_of(row)?, row)));
-    known.min_by(|one, other| one.0.total_cmp(&other.0)).map(|(_, row)| row)
-}
-
-/// Returns the known costs of a point, each behind a comma.
-pub(crate) fn cost_text(row: &DesignRow) -> String {
-    let luts = row.luts().map(|luts| format!(", {} LUTs", real_number(luts, 0)));
-    let mm2 = Objective::Mm2.value_of(row).map(|mm2| format!(", {mm2:.3} mm²"));
-    let energy = Objective::Energy.value_of(row).map(|nj| format!(", {nj:.3} nJ per region"));
-    [luts, mm2, energy].into_iter().flatten().collect()
+    let refused = exploration.refused.first().map(|first| {
+        format!(
+            "{} cannot be built, for example {}: {}. All reasons are in exploration.json.",
+            counted(exploration.refused.len(), "combination"),
+            first.settings,
+            first.reason
+        )
+    });
+    useless.into_iter().chain(refused).collect()
 }

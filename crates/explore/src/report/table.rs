@@ -2,7 +2,7 @@
 //! The points as rows of a table.
 
 use foveate_estimate::ramb36;
-use foveate_pictures::page::number_text::real_number;
+use foveate_pictures::page::number_text::{percent, real_number};
 use foveate_pictures::page::{TableCell, TableColumn, TableRow};
 
 use super::setting::{PointSettings, axes_set};
@@ -10,11 +10,10 @@ use crate::row::count_to_f64 as number;
 use crate::{DesignArea, DesignRow, LoadFigures, ProcessEnergy, ProcessFigures};
 
 /// The name, unit and meaning of every figure of the table.
-const FIGURES: [(&str, &str, &str); 8] = [
+const FIGURES: [(&str, &str, &str); 7] = [
     ("flipped", "%", "regions that the ideal camera shows differently on the screen"),
     ("missed", "%", "share of the ideal camera's active area that is not active here"),
     ("false", "%", "share of the active area here that is not active in the ideal camera"),
-    ("IoU", "", "overlap of the active areas; 1 means equal"),
     ("PSNR", "dB", "rendered frame against that of the ideal camera; = means equal"),
     ("SSIM", "", "rendered frame against that of the ideal camera; 1 means equal"),
     (
@@ -26,11 +25,14 @@ const FIGURES: [(&str, &str, &str); 8] = [
 ];
 
 /// The name, unit and meaning of every part of the area.
-const AREA: [(&str, &str, &str); 5] = [
-    ("LUT", "unit", "LUTs of one RPU, of one lane of a serial design, or of a raster core"),
+const AREA: [(&str, &str, &str); 4] = [
+    (
+        "share",
+        "%",
+        "share of the device that the array takes: LUTs, block RAM, DSP blocks and flip-flops",
+    ),
     ("LUT", "array", "LUTs of the array, those used as memory included"),
     ("FF", "array", "flip-flops of the array"),
-    ("LUTRAM", "array", "LUTs of the array used as memory, two SRL16 in one"),
     ("RAMB36", "array", "block RAM of the array; half of one is a RAMB18"),
 ];
 
@@ -66,7 +68,13 @@ pub(crate) struct MeasuredGroups {
     pub(crate) silicon: bool,
     pub(crate) energy: bool,
     pub(crate) link: bool,
+    /// True if there are several clips.
+    pub(crate) clips: bool,
 }
+
+/// The name, unit and meaning of the worst clip.
+const WORST_CLIP: (&str, &str, &str) =
+    ("worst clip", "%", "the clip on which the ideal camera shows the most regions differently");
 
 /// Returns the headings after the number.
 pub(crate) fn columns(settings: &PointSettings, groups: MeasuredGroups) -> Vec<TableColumn> {
@@ -96,7 +104,9 @@ pub(crate) fn columns(settings: &PointSettings, groups: MeasuredGroups) -> Vec<T
     let silicon = if groups.silicon { &SILICON[..] } else { &[] };
     let energy = if groups.energy { &ENERGY[..] } else { &[] };
     let links = if groups.link { &LINK[..] } else { &[] };
+    let worst = groups.clips.then_some(WORST_CLIP);
     axes.into_iter()
+        .chain(worst.into_iter().map(figure))
         .chain(FIGURES.into_iter().chain(speed).map(figure))
         .chain(areas.iter().chain(silicon).chain(energy).chain(links).copied().map(figure))
         .collect()
@@ -120,11 +130,19 @@ pub(crate) fn point_row(
         let axes = 0..settings.names.len();
         axes.map(|axis| setting(settings.value(row, axis), is_set(axis))).collect()
     };
+    if groups.clips {
+        let worst = row.worst_clip.as_ref().map(|clip| {
+            let name: String = clip.name.chars().take(12).collect();
+            let more = if name == clip.name { "" } else { "…" };
+            let text = format!("{} {name}{more}", percent(clip.action_flips));
+            TableCell::number(text, Some(clip.action_flips))
+        });
+        cells.push(worst.unwrap_or_else(TableCell::missing));
+    }
     cells.extend([
         TableCell::share(figures.action_flips),
         TableCell::share(figures.missed),
         TableCell::share(figures.false_alarms),
-        TableCell::number(real_number(figures.active_iou, 4), Some(figures.active_iou)),
         psnr_cell(figures.psnr_ideal),
         TableCell::number(real_number(figures.ssim_ideal, 4), Some(figures.ssim_ideal)),
         TableCell::share(figures.stale_regions),
@@ -142,11 +160,12 @@ pub(crate) fn point_row(
             Some(silicon) => TableCell::count(take(silicon)),
             None => TableCell::missing(),
         };
+        cells.push(row.device_share().map_or_else(TableCell::missing, |share| {
+            TableCell::number(format!("{:.3}", 100.0 * share), Some(share))
+        }));
         cells.extend([
-            of(|silicon| silicon.unit.lut_total_packed),
             of(|silicon| silicon.array.lut_total_packed),
             of(|silicon| silicon.array.ff),
-            of(|silicon| silicon.array.lut_memory_packed),
             match &row.silicon {
                 Some(DesignArea { array, .. }) => {
                     TableCell::number(ramb36(array.bram18), Some(number(array.bram18)))
@@ -164,7 +183,7 @@ pub(crate) fn point_row(
     if groups.link {
         cells.extend(link_cells(row.load.as_ref()));
     }
-    TableRow { id: row.number.to_string(), number: row.number as u64, best: row.front.all, cells }
+    TableRow { id: row.number.to_string(), number: row.number as u64, best: row.front.any(), cells }
 }
 
 /// Returns the cells of the figures in a process, in the order of [`SILICON`].

@@ -96,12 +96,11 @@ fn plot(
                 id: row.number.to_string(),
                 x: coordinate_text(place.0),
                 y: coordinate_text(place.1),
-                front: false,
-                scale: None,
+                hollow: !row.qualifies(),
                 class: class.clone(),
                 shape,
-                groups: String::new(),
                 title: titles[*of_row].clone(),
+                ..PlotMark::default()
             });
         }
         let class = if index % 2 == 1 { class + " dashed" } else { class };

@@ -72,7 +72,7 @@ fn the_tables_have_the_load_of_each_clip_and_are_otherwise_the_same() {
     assert_eq!(found.link_bits_per_second, Some(1_000_000));
     let plain = explored("", &without);
     assert!(plain.rows.iter().all(|row| row.load.is_none()));
-    for table in ["points.csv", "clips.csv", "pareto.csv"] {
+    for table in ["points.csv", "clips.csv"] {
         let (own, link) = split_table(&with.join(table));
         let expected = fs::read_to_string(without.join(table)).unwrap();
         assert_eq!(own, expected.lines().collect::<Vec<_>>(), "{table}");

@@ -66,12 +66,10 @@ pub(super) fn plot(drawn: &ChartWithIds, titles: &BTreeMap<&str, &str>, note: &s
                 id: id.clone(),
                 x: coordinate_text(place.0),
                 y: coordinate_text(place.1),
-                front: false,
-                scale: None,
                 class: class.clone(),
                 shape,
-                groups: String::new(),
                 title: figures.to_owned(),
+                ..PlotMark::default()
             });
         }
         // Every second line is dashed, so that a line below it shows through its gaps.

@@ -69,7 +69,7 @@ pub struct PlotLine {
 }
 
 /// A measured point of a plot.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct PlotMark {
     /// The id in the page; marks with the same id are highlighted together and link to the row of
     /// that id.
@@ -80,6 +80,10 @@ pub struct PlotMark {
     pub y: String,
     /// True if the mark is on a front, and so is large.
     pub front: bool,
+    /// True if the mark is only an outline.
+    pub hollow: bool,
+    /// The label beside the mark, or nothing.
+    pub label: String,
     /// The factor of its size, which makes marks of one position rings around each other.
     pub scale: Option<String>,
     /// The class of its colour.
@@ -236,15 +240,11 @@ mod tests {
     #[test]
     fn marks_that_would_hide_each_other_are_rings() {
         let mark = |x: &str, class: &str| PlotMark {
-            id: String::new(),
             x: x.to_owned(),
             y: "9.0".to_owned(),
-            front: false,
-            scale: None,
             class: class.to_owned(),
             shape: "dot",
-            groups: String::new(),
-            title: String::new(),
+            ..PlotMark::default()
         };
         let mut marks = [
             mark("1.0", "k0"),

@@ -1,20 +1,28 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The points of an exploration as text and as Markdown.
 
+use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::Path;
 
 use foveate_estimate::ramb36;
 use foveate_explore::{DesignRow, Exploration, ProcessEnergy};
+use foveate_toolchain::escaping::shell_word;
 
 /// A column: its name, and the function that writes its cells.
 type PointColumn = (&'static str, fn(&DesignRow) -> String);
 
-const COLUMNS: [PointColumn; 23] = [
+const COLUMNS: [PointColumn; 25] = [
     ("flips %", |row| percent(row.figures.action_flips)),
     ("missed %", |row| percent(row.figures.missed)),
     ("false %", |row| percent(row.figures.false_alarms)),
     ("stale %", |row| percent(row.figures.stale_regions)),
+    ("worst clip", |row| {
+        let clip = row.worst_clip.as_ref();
+        clip.map_or_else(String::new, |clip| {
+            format!("{} {}", percent(clip.action_flips), clip.name)
+        })
+    }),
     ("SRS %", |row| percent(row.figures.srs_flips)),
     ("TRS %", |row| percent(row.figures.trs_flips)),
     ("IoU", |row| format!("{:.3}", row.figures.active_iou)),
@@ -33,6 +41,9 @@ const COLUMNS: [PointColumn; 23] = [
     ("frames/s", |row| row.speed.map_or_else(String::new, |speed| speed.rate_text())),
     ("LUT/FF/mem", unit_cell),
     ("array LUT", array_cell),
+    ("device %", |row| {
+        row.device_share().map_or_else(String::new, |share| format!("{:.3}", 100.0 * share))
+    }),
     ("unit um2", |row| {
         row.process.as_ref().map_or_else(String::new, |process| format!("{:.0}", process.unit_um2))
     }),
@@ -97,12 +108,12 @@ fn measured_columns(found: &Exploration) -> Vec<PointColumn> {
 const NOTE: &str = "flips, SRS, TRS: regions whose decision differs from that of the ideal camera. \
      missed: of its active regions, not active in the design; false: of the design's active regions, not active in \
      the ideal camera; both without the first frame of every clip. stale %: of the relevant regions, those whose screen \
-     differs from the design's own denoised frame. IoU: of the active areas. score errors: largest, mean, RMS; edge, corner, segment and \
+     differs from the design's own denoised frame. worst clip: the clip with the most flips. IoU: of the active areas. score errors: largest, mean, RMS; edge, corner, segment and \
      temporal as share of a region's pixels, mad, range, surface and flow in grey levels, variance in \
      their squares. PSNR and SSIM of the screen against the ideal's, and against the input. stale: largest and mean \
      difference of the screen from the scene in relevant regions in grey levels, and frames in a \
      row that a region was stale. MHz: the clock, with its range if it is estimated. frames/s: at \
-     that clock. LUT/FF/mem: one RPU or lane.";
+     that clock. LUT/FF/mem: one RPU or lane. device %: the share of an XCVU9P.";
 const PROCESS_NOTE: &str = "unit um2, mm2, nJ/region, mW: in the cells of the process; they are lower bounds. MHz is \
      not above the highest clock of the cells.";
 
@@ -126,34 +137,50 @@ pub(super) fn markdown(found: &Exploration) -> String {
     text
 }
 
-/// Returns a short text: the points on the Pareto front, and the files with all points.
+/// Returns a short text: at most eight points of every front with a line that generates each, and the files with all
+/// points.
 pub(super) fn text(folder: &Path, found: &Exploration, width: usize) -> String {
-    let front: Vec<&DesignRow> = found.rows.iter().filter(|row| row.front.all).collect();
-    let mut text = format!(
-        "{} points, {} of them on the Pareto front of {}:\n",
-        found.rows.len(),
-        front.len(),
-        found.front_figures()
-    );
-    for row in front {
-        let _ = writeln!(text, "\n{}: {}", row.number, found.settings_text(row));
-        let figures = COLUMNS.iter().map(|(name, cell)| (name, cell(row)));
-        let shown = figures.filter(|(_, cell)| !cell.is_empty());
-        let line: Vec<String> = shown.map(|(name, cell)| format!("{name} {cell}")).collect();
-        for line in textwrap::wrap(&line.join(" · "), width.saturating_sub(2)) {
-            let _ = writeln!(text, "  {line}");
+    let useless = found.rows.iter().filter(|row| !row.qualifies()).count();
+    let mut text = format!("{} designs", found.rows.len());
+    if useless > 0 {
+        text += &format!(
+            "; {useless} of them miss more than 10 % of the active regions or have more than 10 % false alarms, and are on no front"
+        );
+    }
+    text = textwrap::fill(&(text + "."), width) + "\n";
+    let mut seen = BTreeSet::new();
+    for front in found.fronts() {
+        let _ = writeln!(text, "\n{}: {} on the front", front.title, front.rows.len());
+        for row in front.named_rows() {
+            let settings = format!("{}: {}", row.number, found.settings_text(row));
+            let _ = writeln!(text, "\n{}", textwrap::fill(&settings, width));
+            if !seen.insert(row.number) {
+                let _ = writeln!(text, "  as above");
+                continue;
+            }
+            for line in row.figure_lines() {
+                for line in textwrap::wrap(&line, width.saturating_sub(2)) {
+                    let _ = writeln!(text, "  {line}");
+                }
+            }
+            let design = folder.join("designs").join(format!("{}.toml", row.number));
+            let design = design.display().to_string();
+            let design = shell_word(&design);
+            let _ = writeln!(text, "  foveate generate --config {design} -o core-{}", row.number);
         }
     }
-    if !found.refused.is_empty() {
-        let _ = writeln!(
-            text,
-            "\n{} combinations are not valid designs; the page gives the reasons.",
-            found.refused.len()
+    if let Some(first) = found.refused.first() {
+        let refused = format!(
+            "{} combinations cannot be built, for example {}: {}.",
+            found.refused.len(),
+            first.settings,
+            first.reason
         );
+        let _ = writeln!(text, "\n{}", textwrap::fill(&refused, width));
     }
     let _ = writeln!(
         text,
-        "\n{}: report.html, points.csv, points.parquet, pareto.csv, clips.csv, designs/",
+        "\n{}: report.html, points.csv, points.parquet, clips.csv, designs/",
         folder.display()
     );
     text
