@@ -326,6 +326,9 @@ pub(crate) struct EstimateArgs {
     /// and without the median, and with edge and each other filter
     #[arg(long)]
     pub(crate) compare: bool,
+    /// List the modules of an RPU, a lane or a core, too, each synthesized apart. The JSON always has them
+    #[arg(long, conflicts_with_all = ["compare", "place_and_route"])]
+    pub(crate) modules: bool,
     /// Place and route the design with nextpnr instead, and print its use of these devices and the
     /// clock that it reaches
     #[arg(long, value_name = "DEVICE", value_delimiter = ',', value_parser = parse_device, conflicts_with = "compare")]

@@ -48,7 +48,7 @@ fn tables(report: &AreaReport) -> Vec<ReportTable> {
     let mut tables = vec![area_table(report), path_table(report)];
     tables.extend(paper_table(report));
     if !report.leaves.is_empty() {
-        tables.insert(0, leaf_table(report));
+        tables.push(leaf_table(report));
     }
     tables
 }

@@ -33,7 +33,7 @@ fn estimate_one(args: &EstimateArgs, flow: &SynthesisTools) -> Result<(), CliErr
     let design = args.design.design()?;
     let progress = Progress::new(args.quiet);
     progress.report_work("synthesizing with Yosys");
-    let report = flow.estimate(&design, true);
+    let report = flow.estimate(&design, args.modules || args.json);
     progress.finish();
     let report = report?.with_clock(args.clock.map(f64::from));
     if args.json {

@@ -14,25 +14,30 @@ const MEMORY_COLUMNS: [&str; 5] = ["count", "words", "bits", "macros of one", "u
 /// Returns the report as tables for a terminal of `width` columns; 80 columns are enough.
 #[must_use]
 pub fn render_silicon_text(report: &SiliconReport, width: usize) -> String {
-    let mut text =
-        format!("{}\n{}", leaf_table(report).text(width), area_table(report).text(width));
+    let mut text = area_table(report).text(width);
     if let Some(table) = memory_table(report) {
         text += &format!("\n{}", table.text(width));
     }
     text.push('\n');
     text.extend(sentences(report).iter().map(|sentence| wrap(sentence, width)));
+    if !report.leaves.is_empty() {
+        text += &format!("\n{}", leaf_table(report).text(width));
+    }
     text
 }
 
 /// Returns the report as Markdown.
 #[must_use]
 pub fn render_silicon_markdown(report: &SiliconReport) -> String {
-    let mut text = format!("{}\n{}", leaf_table(report).markdown(), area_table(report).markdown());
+    let mut text = area_table(report).markdown();
     if let Some(table) = memory_table(report) {
         text += &format!("\n{}", table.markdown());
     }
     text.push('\n');
     text.extend(sentences(report).iter().map(|sentence| format!("* {sentence}\n")));
+    if !report.leaves.is_empty() {
+        text += &format!("\n{}", leaf_table(report).markdown());
+    }
     text
 }
 
@@ -48,7 +53,7 @@ fn leaf_table(report: &SiliconReport) -> ReportTable {
         header: header("module", &COLUMNS),
         rows: rows.collect(),
         note: Some(
-            "Figures are for one instance without the modules inside it. They do not add up to those below, where \
+            "Figures are for one instance without the modules inside it. They do not add up to those above, where \
              logic is optimized across modules."
                 .to_owned(),
         ),

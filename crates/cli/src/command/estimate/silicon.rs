@@ -107,12 +107,13 @@ fn print_reports(args: &EstimateArgs, reports: &[ProcessReport]) -> Result<(), C
     }
     let width = output::text_width();
     let render = |ProcessReport { silicon, energy }: &ProcessReport| {
-        let energy = energy.as_ref();
+        let (mut silicon, energy) = (silicon.clone(), energy.as_ref());
+        silicon.leaves.retain(|_| args.modules);
         let (silicon, energy) = match args.markdown {
-            true => (render_silicon_markdown(silicon), energy.map(render_energy_markdown)),
+            true => (render_silicon_markdown(&silicon), energy.map(render_energy_markdown)),
             false => {
                 let energy = energy.map(|energy| render_energy_text(energy, width));
-                (render_silicon_text(silicon, width), energy)
+                (render_silicon_text(&silicon, width), energy)
             }
         };
         std::iter::once(silicon).chain(energy).collect::<Vec<_>>().join("\n")
