@@ -37,15 +37,20 @@ pub struct DecisionLimits {
     pub missed: Option<f64>,
     /// The largest share of the candidate's active area that is not active in the ideal.
     pub false_alarms: Option<f64>,
+    /// True if of two cameras well within the limits the one that is active more is nearer.
+    pub prefers_active: bool,
 }
 
 impl DecisionLimits {
-    /// Returns the largest ratio of a rate and its limit. A limit of 0 is far from every other rate.
+    /// Returns the largest ratio of a rate and its limit. A limit of 0 is far from every other rate. With
+    /// [`Self::prefers_active`] it is the negative share of the area that is `active`, if that ratio is low.
     #[must_use]
-    pub fn distance(&self, [flips, missed, false_alarms]: [f64; 3]) -> f64 {
+    pub fn distance(&self, [flips, missed, false_alarms]: [f64; 3], active: f64) -> f64 {
+        const LOW: f64 = 0.8;
         let ratio = |limit: Option<f64>, rate: f64| limit.map_or(0.0, |limit| ratio(rate, limit));
         let most = ratio(self.flips, flips).max(ratio(self.missed, missed));
-        most.max(ratio(self.false_alarms, false_alarms))
+        let most = most.max(ratio(self.false_alarms, false_alarms));
+        if self.prefers_active && most <= LOW { -active } else { most }
     }
 }
 
@@ -152,7 +157,7 @@ impl ThresholdTable {
     #[must_use]
     pub fn least_flips(&self) -> u64 {
         let rows = self.rows();
-        let flips = |chosen: &ChosenSteps| self.sums(&rows, chosen).1;
+        let flips = |chosen: &ChosenSteps| self.sums(&rows, chosen).2;
         let start = vec![0; 1 + self.steps.scores.len()];
         let mut least = u64::MAX;
         self.for_each_neighborhood(start, |chosen| {
@@ -177,7 +182,8 @@ impl ThresholdTable {
         let (mut found, mut compared): (Vec<MinimumChoice>, usize) = (Vec::new(), 0);
         self.for_each_neighborhood(start, |chosen| {
             compared += 1;
-            let distance = limits.distance(self.sums(&rows, chosen).0);
+            let (rates, active, _) = self.sums(&rows, chosen);
+            let distance = limits.distance(rates, active);
             let at = found.partition_point(|known| known.distance <= distance);
             if at < most && !found.iter().any(|known| known.chosen == *chosen) {
                 found.insert(at, MinimumChoice { chosen: chosen.clone(), distance });
@@ -252,8 +258,8 @@ impl ThresholdTable {
         self.areas.iter().map(row).collect()
     }
 
-    /// Returns the rates with some minima, and the area that flips.
-    fn sums(&self, rows: &[TableRow], chosen: &ChosenSteps) -> ([f64; 3], u64) {
+    /// Returns the rates with some minima, the share of the area that is active, and the area that flips.
+    fn sums(&self, rows: &[TableRow], chosen: &ChosenSteps) -> ([f64; 3], f64, u64) {
         let (mut all, mut flips) = (0, 0);
         let (mut ideal, mut candidate, mut both) = (0, 0, 0);
         for row in rows {
@@ -268,7 +274,9 @@ impl ThresholdTable {
             both += area_if(is_ideal & is_own);
         }
         let share = |part: u64, whole: u64| count_to_f64(part) / count_to_f64(whole.max(1));
-        ([share(flips, all), share(ideal - both, ideal), share(candidate - both, candidate)], flips)
+        let (missed, false_alarms) =
+            (share(ideal - both, ideal), share(candidate - both, candidate));
+        ([share(flips, all), missed, false_alarms], share(candidate, all), flips)
     }
 
     /// Returns SRS and TRS of regions that reach some steps, with some minima.

@@ -74,8 +74,13 @@ struct ThresholdDescent {
 impl<'a> ThresholdSearch<'a> {
     pub(super) fn new(frames: &'a SearchFrames<'a>, constraints: &'a Constraints) -> Self {
         let &Constraints { max_flips, max_missed, max_false_alarms, .. } = constraints;
-        let limits =
-            DecisionLimits { flips: max_flips, missed: max_missed, false_alarms: max_false_alarms };
+        let limits = DecisionLimits {
+            flips: max_flips,
+            missed: max_missed,
+            false_alarms: max_false_alarms,
+            // What is sent more can only hold more objects.
+            prefers_active: constraints.min_recall.is_some(),
+        };
         Self { frames, constraints, limits, compared: 0 }
     }
 
@@ -164,14 +169,17 @@ impl<'a> ThresholdSearch<'a> {
         let judged = |(config, decisions): (CameraConfig, DecisionGroups)| {
             let rates = decisions.rates(sides);
             let all = [rates.flips, rates.missed, rates.false_alarms];
+            let side = f64::from(sides.1);
+            let active = rates.false_alarms.regions * side * side;
+            let active = active / count_to_f64(self.frames.areas[0].later.all.max(1));
             if run.ended_at.is_none() {
-                let distance = self.limits.distance(all.map(|rate| rate.expected));
+                let distance = self.limits.distance(all.map(|rate| rate.expected), active);
                 let checks = self.constraints.check_rates(&rates);
                 return ThresholdChoice { config, checks, least_flips: None, distance };
             }
             // The other frames may have no flips. The distance is that of the frames so far.
             let least_flips = Some(self.share_of_all(run.least_flips()));
-            let distance = self.limits.distance(all.map(|rate| rate.share));
+            let distance = self.limits.distance(all.map(|rate| rate.share), active);
             ThresholdChoice { config, checks: Vec::new(), least_flips, distance }
         };
         let mut nearest: Vec<ThresholdChoice> = found.into_iter().map(judged).collect();

@@ -137,7 +137,12 @@ fn the_nearest_minima_of_one_feature_are_the_best_of_all() {
     let ideal = config(SIZE, 8, 8);
     let steps = MinimumSteps { counts: COUNTS.to_vec(), scores: vec![vec![1, 2, 5, 8, 13]] };
     let table = table(&ideal, &candidate(8, 4, &[FeatureKind::Edge]), steps);
-    let limits = DecisionLimits { flips: Some(0.02), missed: Some(0.1), false_alarms: Some(0.1) };
+    let limits = DecisionLimits {
+        flips: Some(0.02),
+        missed: Some(0.1),
+        false_alarms: Some(0.1),
+        prefers_active: false,
+    };
     let (found, compared) = table.nearest(vec![3, 0], &limits, 3);
     assert_eq!((found.len(), compared), (3, 1 + 4 * 5));
     let mut least_flips = u64::MAX;
@@ -147,7 +152,7 @@ fn the_nearest_minima_of_one_feature_are_the_best_of_all() {
             let mut sum = DecisionAreas::default();
             table.decisions(&chosen).iter().for_each(|group| sum.add(group));
             least_flips = least_flips.min(sum.action);
-            limits.distance([sum.flips(), sum.missed(), sum.false_alarms()])
+            limits.distance([sum.flips(), sum.missed(), sum.false_alarms()], 0.0)
         })
         .collect();
     distances.sort_by(f64::total_cmp);
@@ -158,7 +163,33 @@ fn the_nearest_minima_of_one_feature_are_the_best_of_all() {
 
 #[test]
 fn a_limit_of_nothing_is_far_from_every_rate_but_nothing() {
-    let limits = DecisionLimits { flips: Some(0.0), missed: Some(0.1), false_alarms: None };
-    assert_eq!(limits.distance([0.0, 0.05, 0.9]), 0.5);
-    assert!(limits.distance([1e-9, 0.0, 0.0]) > 1.0);
+    let limits = DecisionLimits {
+        flips: Some(0.0),
+        missed: Some(0.1),
+        false_alarms: None,
+        prefers_active: false,
+    };
+    assert_eq!(limits.distance([0.0, 0.05, 0.9], 0.2), 0.5);
+    assert!(limits.distance([1e-9, 0.0, 0.0], 0.2) > 1.0);
+}
+
+/// Well within the limits, minima that send more are nearer; elsewhere the limits decide.
+#[test]
+fn the_nearest_minima_may_be_those_that_send_most() {
+    let ideal = config(SIZE, 8, 8);
+    let steps = MinimumSteps { counts: COUNTS.to_vec(), scores: vec![vec![1, 2, 5, 8, 13]] };
+    let table = table(&ideal, &candidate(8, 4, &[FeatureKind::Edge]), steps);
+    let limits =
+        DecisionLimits { flips: Some(0.5), prefers_active: true, ..DecisionLimits::default() };
+    let (found, _) = table.nearest(vec![3, 0], &limits, 20);
+    let figures = found.iter().map(|minima| {
+        let mut sum = DecisionAreas::default();
+        table.decisions(&minima.chosen).iter().for_each(|group| sum.add(group));
+        (sum.flips() <= 0.4, sum.later.candidate)
+    });
+    let figures: Vec<(bool, u64)> = figures.collect();
+    let within = figures.iter().take_while(|(is_within, _)| *is_within).count();
+    assert!(figures[within..].iter().all(|(is_within, _)| !is_within), "{figures:?}");
+    assert!(within > 5 && figures[..within].is_sorted_by(|one, other| one.1 >= other.1));
+    assert!(figures[0].1 > figures[within - 1].1, "{figures:?}");
 }
