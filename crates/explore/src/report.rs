@@ -18,7 +18,7 @@ mod tests;
 
 use askama::Template;
 use foveate_pictures::page::{
-    COLOUR_COUNT, LinkTarget, PageError, PageNotice, PagePlot, ResultPage, SortableTable, TableRow,
+    COLOUR_COUNT, LinkTarget, PageError, PageNotice, PagePlot, ResultPage, SortableTable,
     number_text,
 };
 
@@ -26,7 +26,6 @@ use crate::{DesignFront, DesignRow, Exploration, ExploreError};
 use card::PointCard;
 use colour::PointGrouping;
 use setting::PointSettings;
-use table::MeasuredGroups;
 
 /// The most points that a page shows; with more it would be too large to open.
 const MAX_POINTS_SHOWN: usize = 2000;
@@ -84,16 +83,7 @@ pub(crate) fn render_page(exploration: &Exploration) -> Result<String, ExploreEr
     let titles: Vec<String> = rows.iter().map(|row| card::mark_title(row, &settings)).collect();
     let mut plots = scatter::plots(exploration, &rows, &groupings, &titles);
     plots.extend(threshold::plots(&settings, &rows, &titles));
-    let groups = MeasuredGroups {
-        area: has_synthesis,
-        silicon: exploration.library.is_some(),
-        energy: exploration.energy_rate.is_some(),
-        link: exploration.link_bits_per_second.is_some(),
-        clips: exploration.clips.len() > 1,
-    };
-    let columns = table::columns(&settings, groups);
-    let lines: Vec<TableRow> =
-        rows.iter().map(|row| table::point_row(row, &settings, groups)).collect();
+    let (columns, lines) = table::columns_and_rows(&settings, &rows);
     let about = AboutSection {
         clips: &exploration.clips,
         clip_names: summary::clips(exploration),
