@@ -98,7 +98,6 @@ impl<T: Send> ResultsByRtl<T> {
 }
 
 impl<T: Clone> ResultsByRtl<T> {
-    /// Returns the result or the error of every design.
     pub(crate) fn iter(&self) -> impl Iterator<Item = Result<&T, &ExploreError>> {
         self.keys.iter().filter_map(|key| self.by_rtl.get(key)).map(Result::as_ref)
     }

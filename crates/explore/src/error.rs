@@ -19,48 +19,30 @@ use thiserror::Error;
 /// An error that keeps an exploration from starting or finishing.
 #[derive(Debug, Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "fields of variants are named in the messages")]
 pub enum ExploreError {
     /// A frame cannot be made.
     #[error(transparent)]
     Frame(#[from] FrameError),
     /// A frame could not be compressed.
     #[error("a frame cannot be compressed as JPEG: {reason}")]
-    Jpeg {
-        /// The reason.
-        reason: String,
-    },
+    Jpeg { reason: String },
     /// The ideal camera is active too rarely for a limit on missed regions.
     #[error(
         "undecided: the ideal camera has {} active regions in the searched frames and {} in the frames that confirm, without the first frame of every clip, and --max-missed needs at least 49 in each; use more frames or other thresholds, or give --max-missed 100%",
         regions[0],
         regions[1]
     )]
-    Undecided {
-        /// The numbers of active regions in both parts.
-        regions: [f64; 2],
-    },
+    Undecided { regions: [f64; 2] },
     /// The file of the space is not valid.
     #[error("the space is not valid: {problem}")]
-    Space {
-        /// The problem.
-        problem: String,
-    },
+    Space { problem: String },
     /// A table of the file is not a valid design.
     #[error("the space, [{section}]: {error}")]
-    InvalidSection {
-        /// The name of the table.
-        section: &'static str,
-        /// The problem.
-        error: ConfigError,
-    },
+    InvalidSection { section: &'static str, error: ConfigError },
     /// No point of the space can be built.
     #[error("no valid design was found; tried {settings}: {reason}")]
-    NoPoints {
-        /// The settings of a point.
-        settings: String,
-        /// The reason why the point cannot be built.
-        reason: String,
-    },
+    NoPoints { settings: String, reason: String },
     /// A network cannot be read, or cannot be run on the frames.
     #[error(transparent)]
     Inference(Box<InferenceError>),
@@ -69,51 +51,27 @@ pub enum ExploreError {
     Zones,
     /// A cost or a limit is a figure of a process, and there is none.
     #[error("{figure} is a figure of a process; give its cells with --liberty")]
-    NoProcess {
-        /// The cost or the limit.
-        figure: &'static str,
-    },
+    NoProcess { figure: &'static str },
     /// There are no objects, so no share of them can be sent.
     #[error(
         "the {half} half of the clips has no object to count, so --min-recall cannot be checked; \
          check --boxes, or use longer clips"
     )]
-    NoObjects {
-        /// The half of the clips: `first` or `second`.
-        half: &'static str,
-    },
+    NoObjects { half: &'static str },
     /// The folder exists and is not an exploration.
     #[error("`{}` exists but is not the folder of an exploration (it has no exploration.json); name another folder", path.display())]
-    OtherFolder {
-        /// The path of the folder.
-        path: PathBuf,
-    },
+    OtherFolder { path: PathBuf },
     /// The exploration has no unit of this name.
     #[error(
         "there is no unit `{unit}`: the space, the clips or the options have changed since it was planned; plan again"
     )]
-    NoUnit {
-        /// The name as the user gave it.
-        unit: String,
-    },
+    NoUnit { unit: String },
     /// A clip of a unit ended early.
     #[error("`{clip}` is not complete: {problem}")]
-    IncompleteClip {
-        /// The name of the clip.
-        clip: String,
-        /// The reason why the clip ended.
-        problem: String,
-    },
+    IncompleteClip { clip: String, problem: String },
     /// A file of the exploration cannot be written or read.
     #[error("cannot {action} `{}`: {source}", path.display())]
-    Io {
-        /// The action that failed, as a verb.
-        action: &'static str,
-        /// The path of the file.
-        path: PathBuf,
-        /// The error of the system.
-        source: std::io::Error,
-    },
+    Io { action: &'static str, path: PathBuf, source: std::io::Error },
     /// The clips cannot be played, or the user stopped the exploration; finished results are kept.
     #[error(transparent)]
     Playback(#[from] PlaybackError),

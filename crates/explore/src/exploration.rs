@@ -52,7 +52,6 @@ pub struct Exploration {
 }
 
 impl Exploration {
-    /// Returns the objectives of the fronts of area and of all.
     pub(crate) fn front_objectives(&self) -> FrontObjectives {
         FrontObjectives::of_rows(&self.rows, self.library.is_some())
     }

@@ -55,7 +55,6 @@ impl<'a> ExplorationWork<'a> {
         points.map(|(point, _)| point).collect()
     }
 
-    /// Returns, for each camera, the first point that has it.
     pub(crate) fn first_point_of_cameras(&self) -> Vec<&DesignPoint> {
         let mut found = Vec::with_capacity(self.cameras.len());
         for (point, &camera) in self.points.iter().zip(&self.camera_of_point) {

@@ -8,7 +8,6 @@ use foveate_staging::{ContinuedFolder, TEMPORARY_PREFIX, write_file};
 
 use crate::ExploreError;
 
-/// The file that marks a folder as an exploration and describes it.
 pub(crate) const MARK_FILE: &str = "exploration.json";
 /// The content of the mark before the exploration is complete.
 pub(crate) const UNFINISHED_MARK: &str = "{ \"finished\": false }\n";

@@ -73,7 +73,6 @@ impl<'a> ExplorationFootage<'a> {
         Self { disturbance, ..self }
     }
 
-    /// Returns the measurement of every clip and camera over the whole clip.
     pub(crate) fn measure_clips(
         &self,
         cameras: &[Camera],
@@ -130,7 +129,6 @@ impl<'a> ExplorationFootage<'a> {
         (text, self.ideal.to_toml())
     }
 
-    /// Returns the number of bits per pixel.
     pub(crate) fn pixel_bits(&self) -> u32 {
         self.ideal.frame.pixel_bits
     }

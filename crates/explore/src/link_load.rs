@@ -97,7 +97,6 @@ impl<'a> LoadMeasurement<'a> {
         designs.iter().map(key).collect()
     }
 
-    /// Returns the loads of all designs over every clip.
     pub(crate) fn measure_clips(
         &self,
         designs: &[Design],

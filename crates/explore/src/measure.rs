@@ -57,7 +57,6 @@ impl CameraMeasurement {
 /// A clip and the ideal camera that others are compared with on it.
 pub(crate) struct MeasuredClip<'a> {
     pub(crate) clips: &'a RunClips,
-    /// The number of the clip.
     pub(crate) clip: usize,
     /// The configuration of the ideal camera, for frames of the clip's size.
     pub(crate) ideal: &'a CameraConfig,
@@ -76,7 +75,6 @@ struct IdealFrame {
     objects: Vec<Rect>,
 }
 
-/// A camera that is measured.
 struct MeasuredCamera {
     camera: Camera,
     engine: Engine,
@@ -89,7 +87,6 @@ struct MeasuredCamera {
 }
 
 impl MeasuredClip<'_> {
-    /// Returns the measurement of every camera in every part.
     pub(crate) fn measure(
         &self,
         cameras: &[Camera],

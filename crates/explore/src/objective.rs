@@ -79,7 +79,6 @@ pub(crate) struct FrontObjectives {
     pub(crate) speed: Objective,
     /// The area: square millimetres with a process, the share of the device without one.
     pub(crate) area: Objective,
-    /// True if some point has an area.
     pub(crate) has_areas: bool,
 }
 

@@ -38,7 +38,6 @@ impl DesignSpace {
         self.points_of_combinations(None, width, height)
     }
 
-    /// Returns the designs of some combinations, or of all combinations.
     pub(crate) fn points_of_combinations(
         &self,
         some: Option<&[usize]>,

@@ -74,7 +74,6 @@ struct ColourScript {
     colours: usize,
 }
 
-/// Renders the page.
 pub(crate) fn render_page(exploration: &Exploration) -> Result<String, ExploreError> {
     let settings = PointSettings::new(exploration);
     let rows = points_shown(&exploration.rows);

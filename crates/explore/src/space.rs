@@ -187,7 +187,6 @@ fn visit_values(above: &str, table: &Table, see: &mut impl FnMut(String, &Value)
     }
 }
 
-/// Reads the axes: every array is a list of values.
 fn read_axes(above: &str, table: &Table) -> Result<Vec<SpaceAxis>, ExploreError> {
     let mut found = Vec::new();
     let mut problem = None;

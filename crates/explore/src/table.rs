@@ -10,7 +10,6 @@ use crate::LoadFigures;
 use crate::row::{DesignRow, count_to_f64};
 use crate::{ProcessEnergy, ProcessFigures};
 
-/// Returns the cells of a point.
 pub(crate) fn point_cells(row: &DesignRow, axes: &[String]) -> NamedCells {
     let mut cells: NamedCells = vec![("point".to_owned(), count_cell(row.number as u64))];
     let settings = axes.iter().zip(&row.settings);
@@ -87,7 +86,6 @@ pub(crate) fn load_cells(load: Option<&LoadFigures>) -> NamedCells {
     .into()
 }
 
-/// Returns the cells that name the point and the clip of a row.
 pub(crate) fn name_cells(point: usize, clip: &str) -> NamedCells {
     vec![
         ("point".to_owned(), count_cell(point as u64)),
@@ -95,7 +93,6 @@ pub(crate) fn name_cells(point: usize, clip: &str) -> NamedCells {
     ]
 }
 
-/// Returns the cells of the errors.
 pub(crate) fn error_cells(figures: &FidelityFigures) -> NamedCells {
     let real = |value: f64| TableCell::Real(Some(value));
     let mut cells: NamedCells = [

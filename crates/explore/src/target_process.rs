@@ -119,7 +119,6 @@ pub(crate) struct EnergyClips<'a> {
 }
 
 impl<'a> EnergyClips<'a> {
-    /// Makes the clips from a run. `frames` has the numbers of the frames of each clip that count.
     pub(crate) fn new(
         process: &'a TargetProcess,
         clips: &'a RunClips,

@@ -49,7 +49,6 @@ struct UnitReceipt<'a> {
 /// A unit, and its part of the work.
 struct PlannedUnit {
     unit: WorkUnit,
-    /// The number of the clip.
     clip: usize,
     cameras: Range<usize>,
     /// The designs that are measured in front of the link; none if the space has no link.

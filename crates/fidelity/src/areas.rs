@@ -53,7 +53,6 @@ impl DecisionState {
     }
 }
 
-/// Returns the index of a pair of states in a [`StateAreas`].
 pub(crate) fn state_pair_index(ideal: DecisionState, candidate: DecisionState) -> usize {
     usize::from(ideal.0) << STATE_BITS | usize::from(candidate.0)
 }
@@ -107,7 +106,6 @@ pub struct DecisionAreas {
 }
 
 impl DecisionAreas {
-    /// Adds the areas of a table.
     pub(crate) fn add_table(&mut self, table: &StateAreas, order: FrameOrder) {
         for (at, &area) in table.iter().enumerate().filter(|(_, area)| **area > 0) {
             let state = |shift: usize| {

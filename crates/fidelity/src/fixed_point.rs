@@ -15,7 +15,6 @@ const UNIT: f64 = 1_099_511_627_776.0; // 2^40
 pub(crate) struct FixedPoint(i128);
 
 impl FixedPoint {
-    /// Returns the number that is nearest to a value.
     #[allow(clippy::cast_possible_truncation, reason = "rounded on purpose; saturates")]
     pub(crate) fn nearest(value: f64) -> Self {
         Self((value * UNIT).round() as i128)

@@ -88,14 +88,12 @@ impl ScorePair {
         pairs
     }
 
-    /// Creates the tally of this score.
     pub(crate) fn empty_tally(&self) -> ScoreTally {
         let [max, sum, squares] = [FixedPoint::default(); 3];
         let (feature, unit) = (self.name.to_owned(), self.unit.to_owned());
         ScoreTally { feature, unit, count: 0, max, sum, squares }
     }
 
-    /// Adds one frame.
     pub(crate) fn add_frame(
         &self,
         ideal: &IdealOutcome,

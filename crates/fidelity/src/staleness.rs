@@ -75,7 +75,6 @@ impl<T: PixelSample> StalenessTracker<T> {
         }
     }
 
-    /// Ends every run.
     pub(crate) fn end_runs(&mut self) {
         self.runs.fill(0);
     }

@@ -54,7 +54,6 @@ impl DecisionLimits {
     }
 }
 
-/// Returns the ratio of a rate and its limit.
 fn ratio(rate: f64, limit: f64) -> f64 {
     const LEAST: f64 = 1e-4;
     match rate > 0.0 {
@@ -305,7 +304,6 @@ impl ThresholdTable {
 }
 
 impl MinimumSteps {
-    /// Returns the steps that a region reaches.
     fn reached(&self, outcome: &FrameOutcome, region: usize) -> ReachedSteps {
         let mut reached = [0; 1 + FeatureKind::COUNT];
         let number = |steps: usize| u8::try_from(steps).expect("there are at most 255 steps");

@@ -22,7 +22,6 @@ pub struct CaseRow {
 }
 
 impl CaseRow {
-    /// Makes the row of a case in which two numbers must be equal.
     pub(crate) fn for_equal_numbers(
         case: &'static str,
         designs: impl Into<String>,

@@ -69,7 +69,6 @@ pub(crate) fn organization_for(kind: FeatureKind) -> Organization {
     *Organization::ALL.iter().find(supports).expect("an organization supports each feature")
 }
 
-/// Returns the features that have a design with regions of side `side`.
 pub(crate) fn kinds_for(side: u32) -> Vec<FeatureKind> {
     let fits = |&kind: &FeatureKind| match organization_for(kind) {
         Organization::Pipelined | Organization::Raster => true,

@@ -16,7 +16,6 @@ use crate::test_frames::RandomNumbers;
 pub(crate) struct AgreementTally {
     /// The number of values that differ from those of the functional model.
     pub(crate) differing: u64,
-    /// The number of values that were compared.
     pub(crate) compared: u64,
 }
 

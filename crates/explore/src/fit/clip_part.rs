@@ -3,7 +3,6 @@
 
 use std::ops::Range;
 
-/// A part of every clip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ClipPart {
     /// The first two thirds of the first half, which cameras are searched by.
@@ -40,7 +39,6 @@ impl ClipPart {
     }
 }
 
-/// Returns at most `most` numbers of a range, spread evenly.
 pub(super) fn spread_evenly(range: Range<u64>, most: u64) -> Vec<u64> {
     let length = range.end.saturating_sub(range.start);
     let count = most.min(length);

@@ -89,7 +89,6 @@ pub(super) struct PartFigures {
     pub(super) recall: Option<f64>,
 }
 
-/// The names of the limits on flips, missed regions and false alarms.
 const RATE_NAMES: [&str; 3] = ["max-flips", "max-missed", "max-false-alarms"];
 
 impl ConstraintCheck {
@@ -214,7 +213,6 @@ fn hundredths(value: f64) -> String {
     format!("{value:.2}").trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-/// Returns whether all limits are met.
 pub(super) fn all_met(checks: &[ConstraintCheck]) -> bool {
     checks.iter().all(|check| check.holds)
 }

@@ -153,7 +153,6 @@ impl FitFindings<'_> {
 }
 
 impl FittedDesign {
-    /// Returns the chosen design with its figures and checks on the second half.
     fn new(
         chosen: &SynthesizedDesign,
         held_out: FidelityFigures,
@@ -181,7 +180,6 @@ impl FittedDesign {
     }
 }
 
-/// Returns the number of frames of the first halves and of the second halves of all clips.
 fn frames_of_halves(halves: &ClipHalves) -> (u64, u64) {
     halves
         .frames

@@ -208,7 +208,6 @@ fn other_features(
     best.into_iter().filter_map(line).collect()
 }
 
-/// Returns the best synthesized design of every other organization.
 fn other_organizations<'a>(
     built: &'a SynthesizedDesigns,
     chosen: &SynthesizedDesign,

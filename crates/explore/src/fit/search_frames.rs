@@ -26,7 +26,6 @@ pub(super) struct SearchFrame {
     pub(super) shown: Option<ByteFrame>,
     pub(super) order: FrameOrder,
     pub(super) ideal: Vec<DecisionState>,
-    /// The number of its group of consecutive frames.
     pub(super) group: usize,
     /// The share of all searched frames that are seen after this one, 0..=1; infinite for a frame
     /// that confirms.

@@ -67,7 +67,6 @@ pub(super) fn filter_complexity(filter: DenoiseFilter) -> u32 {
     }
 }
 
-/// Returns the cameras that send the fewest bytes.
 pub(super) fn cameras_with_fewest_bytes<'a>(
     cameras: &[&'a ExaminedCamera],
 ) -> Result<Vec<&'a ExaminedCamera>, ExploreError> {

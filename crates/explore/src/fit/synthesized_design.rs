@@ -13,7 +13,6 @@ use crate::cost::{DesignArea, SynthesisResult};
 use crate::row::count_to_f64;
 use crate::target_process::{EnergyClips, ProcessEnergy, ProcessFigures, reachable_clock};
 
-/// A synthesized design.
 #[derive(Clone, Debug)]
 pub(super) struct SynthesizedDesign {
     /// The camera that the design computes, with its figures.
@@ -88,7 +87,6 @@ impl SynthesizedDesign {
         }
     }
 
-    /// Measures the energy in the first halves, unless it is known, and returns that in the second halves.
     pub(super) fn measure_halves(
         &mut self,
         [first, second]: &[EnergyClips<'_>; 2],

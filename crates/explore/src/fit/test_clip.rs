@@ -20,7 +20,6 @@ pub(super) fn write_clip(folder: &Path, frames: u32) {
     }
 }
 
-/// Removes frames of a clip.
 pub(super) fn remove_frames(folder: &Path, frames: Range<u32>) {
     frames.for_each(|number| std::fs::remove_file(frame_path(folder, number)).unwrap());
 }

@@ -30,7 +30,6 @@ pub(super) struct ThresholdRun {
     pub(super) ended_at: Option<f64>,
 }
 
-/// The decisions of a run.
 enum RunDecisions {
     /// Scores do not depend on decisions, so the decisions with all minima are known.
     OfAllMinima(ThresholdTable, MinimumDecimals),
@@ -198,7 +197,6 @@ fn rising_counts(n: u32) -> Vec<u32> {
     std::iter::successors(Some(0), next).collect()
 }
 
-/// Returns the decimal of a number with three significant digits.
 pub(super) fn three_digits(value: f64) -> Option<Decimal> {
     Decimal::from_f64(format!("{value:.2e}").parse().ok()?)
 }

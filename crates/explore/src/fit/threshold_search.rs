@@ -46,13 +46,11 @@ pub(super) struct ThresholdChoice {
 }
 
 impl ThresholdChoice {
-    /// Returns true if the decisions meet all limits.
     pub(super) fn meets_limits(&self) -> bool {
         self.least_flips.is_none() && all_met(&self.checks)
     }
 }
 
-/// The search of thresholds.
 pub(super) struct ThresholdSearch<'a> {
     frames: &'a SearchFrames<'a>,
     constraints: &'a Constraints,
@@ -156,7 +154,6 @@ impl<'a> ThresholdSearch<'a> {
         Ok(runs)
     }
 
-    /// Returns the share of the area of all searched frames.
     fn share_of_all(&self, area: u64) -> f64 {
         count_to_f64(area) / count_to_f64(self.frames.areas[0].active.all.max(1))
     }
@@ -247,7 +244,6 @@ fn neighbor_cameras(config: &CameraConfig) -> Vec<CameraConfig> {
     found
 }
 
-/// Returns the levels around a level.
 fn levels_around(level: u32) -> Vec<u32> {
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small number")]
     let changed = LEVEL_CHANGES.map(|change| (f64::from(level) * change).round() as u32);

@@ -93,7 +93,6 @@ impl PointCard {
     }
 }
 
-/// Returns the text of the mark of a point.
 pub(crate) fn mark_title(row: &DesignRow, settings: &PointSettings) -> String {
     let [errors, costs] = row.figure_lines();
     format!("Point {}: {}\n{errors}\n{costs}", row.number, settings.settings_text(row, None))

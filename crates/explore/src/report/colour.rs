@@ -9,19 +9,16 @@ use crate::DesignRow;
 /// The number of groups that can be told apart; further groups are grey.
 const MAX_GROUPS: usize = 2 * COLOUR_COUNT;
 
-/// The points in groups by the value of one axis.
 pub(crate) struct PointGrouping {
     /// The name of the axis.
     pub(crate) name: String,
     /// True if the page starts with this grouping.
     pub(crate) is_chosen: bool,
-    /// The groups.
     pub(crate) groups: Vec<PointGroup>,
     /// The number of the group of each row.
     pub(crate) of_row: Vec<usize>,
 }
 
-/// A group of points with one colour and shape.
 pub(crate) struct PointGroup {
     /// The value that the points have in common.
     pub(crate) label: String,

@@ -21,7 +21,6 @@ struct ScatterPlot {
     y: ObjectiveAxis,
 }
 
-/// An objective as an axis.
 struct ObjectiveAxis {
     objective: Objective,
     title: String,
@@ -65,7 +64,6 @@ impl ObjectiveAxis {
     }
 }
 
-/// Returns the title of the axis of speed.
 fn speed_title(exploration: &Exploration) -> String {
     match (exploration.clock_mhz, &exploration.library) {
         (Some(mhz), None) => format!("frames/s at {mhz} MHz"),
@@ -75,7 +73,6 @@ fn speed_title(exploration: &Exploration) -> String {
     }
 }
 
-/// Returns every plot of points, in order.
 pub(crate) fn plots(
     exploration: &Exploration,
     rows: &[&DesignRow],
@@ -157,7 +154,6 @@ impl ScatterPlot {
     }
 }
 
-/// Returns the mark of a row.
 fn mark(
     row: &DesignRow,
     index: usize,

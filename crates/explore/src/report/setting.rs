@@ -56,7 +56,6 @@ impl PointSettings {
         self.ideal_values.get(axis).map(String::as_str).filter(|text| !text.is_empty())
     }
 
-    /// Returns the settings of a point as `name value`, without one axis.
     pub(crate) fn settings_text(&self, row: &DesignRow, without: Option<usize>) -> String {
         let set = row.settings.iter().enumerate();
         let set = set.filter(|(axis, text)| !text.is_empty() && Some(*axis) != without);
@@ -67,7 +66,6 @@ impl PointSettings {
     }
 }
 
-/// Returns the numbers of the axes that a point sets.
 pub(crate) fn axes_set(row: &DesignRow) -> impl Iterator<Item = usize> {
     let set = row.settings.iter().enumerate().filter(|(_, text)| !text.is_empty());
     set.map(|(axis, _)| axis)

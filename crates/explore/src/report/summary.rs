@@ -25,7 +25,6 @@ pub(crate) fn clips(exploration: &Exploration) -> String {
     names.join(", ") + more
 }
 
-/// Returns the figures of the heading.
 pub(crate) fn facts(exploration: &Exploration) -> Vec<HeadingFigure> {
     let Exploration { rows, clips, axes, .. } = exploration;
     let frames = clips.iter().map(|clip| clip.frames).sum();

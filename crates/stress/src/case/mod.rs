@@ -13,10 +13,8 @@ mod variance_cancellation;
 
 use crate::{CaseRow, RunDepth};
 
-/// A function that runs one case.
 pub(crate) type CaseFunction = fn(RunDepth) -> Vec<CaseRow>;
 
-/// Every case.
 pub(crate) const ALL_CASES: &[CaseFunction] = &[
     accumulator_maxima::largest_scores,
     accumulator_maxima::largest_counts,

@@ -77,7 +77,6 @@ fn screen_errors(design: &Design, frames: impl Iterator<Item = Frame>) -> Screen
     worst
 }
 
-/// Makes the row of a case that tests the promise of `last-sent`.
 fn last_sent_row(case: &'static str, designs: String, worst: ScreenErrors) -> CaseRow {
     let tally = (worst.off_regions, worst.compared_regions);
     CaseRow::for_no_errors(
