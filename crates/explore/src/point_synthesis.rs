@@ -89,21 +89,22 @@ impl<'a> PointSynthesis<'a> {
             PartHooks { hooks: self.hooks, before: first as u64, all: designs.len() as u64 };
         let at_once = (2 * rayon::current_num_threads()).max(8).max(designs.len().div_ceil(16));
         let designs = &designs[first..designs.len().min(first + at_once)];
-        let (points, errors) = self.synthesize(designs, &hooks)?;
-        found.points.extend(points);
+        let mut errors = Vec::new();
+        found.points.extend(self.synthesize(designs, &hooks, &mut errors)?);
         let problem = |(index, error)| format!("point {}: {error}", first + index + 1);
         found.problems.extend(errors.into_iter().map(problem));
         Ok(())
     }
 
-    /// Synthesizes designs. Returns the results, and the errors of tools with the indices of their designs.
+    /// Synthesizes designs. Errors of tools are added to `problems`, with the indices of their designs.
     fn synthesize(
         &self,
         designs: &[Design],
         hooks: &dyn RunHooks,
-    ) -> Result<(Vec<SynthesizedPoint>, Vec<(usize, String)>), ExploreError> {
+        problems: &mut Vec<(usize, String)>,
+    ) -> Result<Vec<SynthesizedPoint>, ExploreError> {
         let areas = self.synthesizer.synthesize_designs(designs.iter(), hooks)?;
-        let mut problems = problems_of(&areas);
+        problems.extend(problems_of(&areas));
         let areas = areas.iter().map(|area| area.ok().cloned());
         let mut points: Vec<_> =
             areas.map(|fpga| SynthesizedPoint { fpga, process: None }).collect();
@@ -111,14 +112,14 @@ impl<'a> PointSynthesis<'a> {
             let mapped = process.map_designs(self.synthesizer, designs.iter(), hooks)?;
             problems.extend(problems_of(&mapped));
             let reports: Vec<Option<&SiliconReport>> = mapped.iter().map(Result::ok).collect();
-            let mut energies = self.measure_energies(designs, &reports, hooks, &mut problems)?;
+            let mut energies = self.measure_energies(designs, &reports, hooks, problems)?;
             for (index, (point, report)) in points.iter_mut().zip(reports).enumerate() {
                 let energy = energies.remove(&index);
                 let figures = report.map(ProcessFigures::from_report);
                 point.process = figures.map(|figures| ProcessFigures { energy, ..figures });
             }
         }
-        Ok((points, problems))
+        Ok(points)
     }
 
     /// Returns the energies of designs that can be measured, by their index.
