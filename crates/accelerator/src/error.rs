@@ -4,56 +4,28 @@
 /// An accelerator or a layer is invalid, or the layer cannot run on the accelerator.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "fields of variants are named in the messages")]
 pub enum AcceleratorError {
     /// The text is not valid TOML.
     #[error("the accelerator is not valid TOML: {}", escaped_line(.0))]
     InvalidToml(String),
     /// A key is missing, is unknown, or has a value of the wrong type.
     #[error("accelerator, `{}`: {}", escaped_line(key), escaped_line(problem))]
-    InvalidKey {
-        /// The dotted path of the key, or of the table that contains it.
-        key: String,
-        /// The problem and the valid values.
-        problem: String,
-    },
+    InvalidKey { key: String, problem: String },
     /// A value is outside its range.
     #[error("accelerator, `{key}` = {value} is out of range; the valid range is {valid}")]
-    OutOfRange {
-        /// The dotted path of the key.
-        key: &'static str,
-        /// The value.
-        value: String,
-        /// The valid range.
-        valid: &'static str,
-    },
+    OutOfRange { key: &'static str, value: String, valid: &'static str },
     /// The preset does not exist.
     #[error("unknown accelerator `{}`; presets are {known}", escaped_line(name))]
-    UnknownPreset {
-        /// The name as given.
-        name: String,
-        /// The names of the existing presets.
-        known: String,
-    },
+    UnknownPreset { name: String, known: String },
     /// The shapes of a layer contradict each other.
     #[error("the layer's {what} is {value}, but must be {valid}")]
-    InvalidLayer {
-        /// The name of the number.
-        what: &'static str,
-        /// The value of the number.
-        value: u128,
-        /// The valid values.
-        valid: String,
-    },
+    InvalidLayer { what: &'static str, value: u128, valid: String },
     /// The buffer is too small for the layer.
     #[error(
         "`array.buffer_bytes` = {buffer} is too small for this layer; its smallest pass needs {needed} bytes"
     )]
-    BufferTooSmall {
-        /// The size of the buffer in bytes.
-        buffer: u64,
-        /// The size of the smallest pass in bytes.
-        needed: u64,
-    },
+    BufferTooSmall { buffer: u64, needed: u64 },
 }
 
 /// Escapes the control characters in a user's text, so that a message stays on one line and cannot

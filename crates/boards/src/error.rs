@@ -10,63 +10,31 @@ use thiserror::Error;
 
 /// An error that prevents a project or a bitstream.
 #[derive(Debug, Error)]
+#[expect(missing_docs, reason = "fields of variants are named in the messages")]
 pub enum BoardError {
     /// There is no board of that name.
     #[error("unknown board `{name}`; boards are {known}, or a file NAME.toml")]
-    UnknownBoard {
-        /// The given name.
-        name: String,
-        /// The names of all boards.
-        known: String,
-    },
+    UnknownBoard { name: String, known: String },
     /// There is no sensor of that name.
     #[error(
         "unknown sensor `{name}`; sensors are {known}, and `pattern` for a pattern in place of a sensor"
     )]
-    UnknownSensor {
-        /// The given name.
-        name: String,
-        /// The names of all sensors.
-        known: String,
-    },
+    UnknownSensor { name: String, known: String },
     /// A file of a board or a sensor cannot be read.
     #[error("cannot read `{}`: {source}", path.display())]
-    Read {
-        /// The path of the file.
-        path: PathBuf,
-        /// The cause.
-        source: std::io::Error,
-    },
+    Read { path: PathBuf, source: std::io::Error },
     /// The script has not left a file that it should make.
     #[error("the build did not write `{}`: {source}", path.display())]
-    MissingOutput {
-        /// The path of the file.
-        path: PathBuf,
-        /// The cause.
-        source: std::io::Error,
-    },
+    MissingOutput { path: PathBuf, source: std::io::Error },
     /// A file of a board or a sensor is not valid.
     #[error("the board `{name}` is not valid: {reason}")]
-    Invalid {
-        /// The name of the board or sensor.
-        name: String,
-        /// The fault, and what would be right.
-        reason: String,
-    },
+    Invalid { name: String, reason: String },
     /// The design does not fit the board or its sensor.
     #[error("this design does not fit the board `{name}`: {reason}")]
-    Design {
-        /// The name of the board.
-        name: String,
-        /// The fault, and what would be right.
-        reason: String,
-    },
+    Design { name: String, reason: String },
     /// No open tool makes a bitstream for the board.
     #[error("no open tool makes a bitstream for `{name}`; its folder has the scripts for Vivado")]
-    NoOpenTool {
-        /// The name of the board.
-        name: String,
-    },
+    NoOpenTool { name: String },
     /// The configuration is not valid.
     #[error(transparent)]
     Config(#[from] ConfigError),

@@ -57,29 +57,20 @@ impl RegionClass {
 
 /// An error of a map that does not fit the camera.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+#[expect(missing_docs, reason = "fields of variants are named in the messages")]
 pub enum ClassMapError {
     /// A map that does not have one class per region.
     #[error(
         "the map has {given} classes, but the camera has {regions} regions; give it one class per \
          region"
     )]
-    Count {
-        /// The number of classes.
-        given: usize,
-        /// The number of regions.
-        regions: u32,
-    },
+    Count { given: usize, regions: u32 },
     /// A class other than `normal` in a camera without zones.
     #[error(
         "region {region} has the class `{class}`, but the camera has no zones; use the class \
          `normal`, or a camera with zones"
     )]
-    NoZones {
-        /// The number of the first such region.
-        region: usize,
-        /// Its class.
-        class: RegionClass,
-    },
+    NoZones { region: usize, class: RegionClass },
 }
 
 #[cfg(test)]

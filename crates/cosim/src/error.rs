@@ -13,6 +13,7 @@ use std::path::{Path, PathBuf};
 /// The reason for which a co-simulation has no result.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "fields of variants are named in the messages")]
 pub enum CosimError {
     /// A tool is missing, too old, or refused its input.
     #[error(transparent)]
@@ -23,20 +24,14 @@ pub enum CosimError {
         "Yosys has no simulation model of the cell `{cell}`; co-simulate the RTL of this design instead, \
          or the netlist of a design without that cell"
     )]
-    NoModel {
-        /// The name of the cell.
-        cell: String,
-    },
+    NoModel { cell: String },
 
     /// The netlist does not implement the Verilog.
     #[error(
         "{yosys} wires block RAM of 64 bits and more wrongly (YosysHQ/yosys#5833), so its netlist is not this design; \
          take a Yosys of May 2026 or later (FOVEATE_YOSYS), fewer `hardware.pixels_per_clock`, or co-simulate the RTL"
     )]
-    MiswiredBlockRam {
-        /// The version of Yosys.
-        yosys: String,
-    },
+    MiswiredBlockRam { yosys: String },
 
     /// The design does not allow the requested settings.
     #[error(transparent)]
@@ -44,44 +39,22 @@ pub enum CosimError {
 
     /// The hierarchy that Verilator wrote cannot be read.
     #[error("the hierarchy that Verilator wrote cannot be read: {why}; Verilator 5 is expected")]
-    UnreadableHierarchy {
-        /// The problem with the hierarchy.
-        why: String,
-    },
+    UnreadableHierarchy { why: String },
 
     /// The Verilog has no module with the name that is to be simulated.
     #[error("the Verilog ({files}) has no module `{top}`; give the sources of the whole core")]
-    NoTop {
-        /// The name of the module.
-        top: String,
-        /// The files that were searched.
-        files: String,
-    },
+    NoTop { top: String, files: String },
 
     /// The Verilog's top module lacks a port of the design.
     #[error("module `{top}` has no port `{port}`; the Verilog may belong to another design")]
-    NoPort {
-        /// The name of the module.
-        top: String,
-        /// The name of the port.
-        port: String,
-    },
+    NoPort { top: String, port: String },
 
     /// A port of the Verilog's top module is not as wide as the design's.
     #[error(
         "port `{port}` of module `{top}` has {found} bits, but the design has {wanted}; \
          the Verilog may belong to another design"
     )]
-    PortWidth {
-        /// The name of the module.
-        top: String,
-        /// The name of the port.
-        port: String,
-        /// The number of bits in the Verilog.
-        found: u32,
-        /// The number of bits in the design.
-        wanted: u32,
-    },
+    PortWidth { top: String, port: String, found: u32, wanted: u32 },
 
     /// There is nothing to simulate. This must not look like a run without a mismatch.
     #[error(
@@ -98,37 +71,18 @@ pub enum CosimError {
         "an array of {regions} regions, which take {pixels} pixels per frame, is too large to simulate; \
          the limits are {max_regions} regions and {max_pixels} pixels, so simulate a part of it as `rcm`"
     )]
-    TooLarge {
-        /// The number of its regions.
-        regions: u64,
-        /// The number of pixels that they take per frame, with those of their neighborhoods.
-        pixels: u64,
-        /// The largest number of regions.
-        max_regions: u64,
-        /// The largest number of pixels.
-        max_pixels: u64,
-    },
+    TooLarge { regions: u64, pixels: u64, max_regions: u64, max_pixels: u64 },
 
     /// A frame does not fit the design.
     #[error(
         "frame {index} has {found}, but the design takes {wanted}; \
          set frame.width, frame.height and frame.pixel_bits to match"
     )]
-    FrameShape {
-        /// The index of the frame.
-        index: usize,
-        /// The size and depth of the frame.
-        found: String,
-        /// The size and depth of the design.
-        wanted: String,
-    },
+    FrameShape { index: usize, found: String, wanted: String },
 
     /// The model refused a frame or an input.
     #[error("the model refused its input: {reason}")]
-    Model {
-        /// The reason that the model gave.
-        reason: String,
-    },
+    Model { reason: String },
 
     /// The engine refused a frame, or its threads cannot be started.
     #[error(transparent)]
@@ -139,18 +93,7 @@ pub enum CosimError {
 
     /// The simulator ended early.
     #[error("{simulator} ended after {got} of {clocks} clocks ({status}){log}")]
-    EndedEarly {
-        /// The name of the simulator.
-        simulator: String,
-        /// The number of clocks to simulate.
-        clocks: u64,
-        /// The number of clocks that were simulated.
-        got: u64,
-        /// The exit status.
-        status: String,
-        /// The last line of the simulator's output, if there is one.
-        log: String,
-    },
+    EndedEarly { simulator: String, clocks: u64, got: u64, status: String, log: String },
 
     /// The folder for the replay cannot be written.
     #[error(transparent)]
@@ -161,25 +104,11 @@ pub enum CosimError {
         "cannot {action} `{}`: {source}; set TMPDIR to a writable folder with free space",
         path.display()
     )]
-    TemporaryFile {
-        /// The attempted action, such as "write".
-        action: &'static str,
-        /// The file or folder.
-        path: PathBuf,
-        /// The reason.
-        source: std::io::Error,
-    },
+    TemporaryFile { action: &'static str, path: PathBuf, source: std::io::Error },
 
     /// A file could not be used.
     #[error("cannot {action} `{}`: {source}", path.display())]
-    Io {
-        /// The attempted action, such as "write".
-        action: &'static str,
-        /// The file or folder.
-        path: PathBuf,
-        /// The reason.
-        source: std::io::Error,
-    },
+    Io { action: &'static str, path: PathBuf, source: std::io::Error },
 }
 
 impl From<ToolError> for CosimError {

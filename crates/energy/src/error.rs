@@ -10,6 +10,7 @@ use thiserror::Error;
 /// An error of a measurement of energy.
 #[derive(Debug, Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "fields of variants are named in the messages")]
 pub enum EnergyError {
     /// The design cannot be mapped, or the library lacks a table.
     #[error(transparent)]
@@ -25,37 +26,19 @@ pub enum EnergyError {
         "`{input}` is a set of images without order, which has no activity in time; give a video, a folder of \
          frames or `scene:street`"
     )]
-    NoClip {
-        /// The input.
-        input: String,
-    },
+    NoClip { input: String },
     /// The input has several clips.
     #[error("the energy is measured on one clip, and `{input}` are several; give one of them")]
-    SeveralClips {
-        /// The inputs.
-        input: String,
-    },
+    SeveralClips { input: String },
     /// The design cannot take frames of the clip's size.
     #[error(transparent)]
     Config(#[from] ConfigError),
     /// The clip is too short.
     #[error("the clip `{clip}` has {found} frames, and an activity needs at least {needed}")]
-    TooShort {
-        /// The name of the clip.
-        clip: String,
-        /// The number of its frames.
-        found: u64,
-        /// The number that is needed.
-        needed: u64,
-    },
+    TooShort { clip: String, found: u64, needed: u64 },
     /// The clip ended early.
     #[error("the clip `{clip}` is not complete, so no energy is given: {problem}")]
-    IncompleteClip {
-        /// The name of the clip.
-        clip: String,
-        /// The reason why it ended.
-        problem: String,
-    },
+    IncompleteClip { clip: String, problem: String },
     /// The organization cannot be measured.
     #[error(
         "the energy of organization `raster` is not measured, because its memories are macros, whose accesses are \
@@ -68,22 +51,8 @@ pub enum EnergyError {
          stretch is taken: it has {found}, and the model has {expected}. So no energy is given; `foveate cosim` with \
          the netlist of `foveate estimate --netlist` shows more"
     )]
-    Mismatch {
-        /// The first region of the unit.
-        region: u32,
-        /// The frame of the simulated stretch, from 0.
-        frame: u64,
-        /// The port.
-        port: String,
-        /// The value of the model, in hexadecimal.
-        expected: String,
-        /// The value of the netlist, in hexadecimal.
-        found: String,
-    },
+    Mismatch { region: u32, frame: u64, port: String, expected: String, found: String },
     /// The netlist has a loop of gates, or lacks a pin.
     #[error("the netlist cannot be simulated: {reason}")]
-    Netlist {
-        /// The reason.
-        reason: String,
-    },
+    Netlist { reason: String },
 }

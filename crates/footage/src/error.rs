@@ -18,6 +18,7 @@ const TYPES: &str = "PNG, JPEG, BMP and PNM (PGM, PPM, PBM, PAM)";
 /// The error that is returned if footage cannot be opened or read.
 #[derive(Debug, Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "fields of variants are named in the messages")]
 pub enum FootageError {
     /// No input was given.
     #[error(
@@ -26,19 +27,13 @@ pub enum FootageError {
     NoInput,
     /// A file or folder does not exist.
     #[error("input `{}` does not exist; check the path", path.display())]
-    Missing {
-        /// The path as given.
-        path: PathBuf,
-    },
+    Missing { path: PathBuf },
     /// A configuration has the classes of its regions in an image and as text.
     #[error(
         "the configuration has both the image `zones.map` = `{map}` and `zones.classes`, which give every region a class; \
          leave one of them out"
     )]
-    ClassesTwice {
-        /// The path of the image as given.
-        map: String,
-    },
+    ClassesTwice { map: String },
     /// An image that is a map of zones has a colour that is no class.
     #[error(
         "the map `{}`: pixel ({x}, {y}) is ({red}, {green}, {blue}), which is no class; black or 0 is normal, red \
@@ -46,289 +41,136 @@ pub enum FootageError {
          the place of 255",
         path.display()
     )]
-    ClassColour {
-        /// The path of the image.
-        path: PathBuf,
-        /// The column of the pixel.
-        x: u32,
-        /// The row of the pixel.
-        y: u32,
-        /// The red part of the pixel, 0..=255, or 0..=65535 in an image of 16 bits.
-        red: u16,
-        /// The green part of the pixel, in the same range.
-        green: u16,
-        /// The blue part of the pixel, in the same range.
-        blue: u16,
-    },
+    ClassColour { path: PathBuf, x: u32, y: u32, red: u16, green: u16, blue: u16 },
     /// The input is a URL.
     #[error(
         "`{url}` is a URL, but inputs must be files, devices of this machine, or cameras by RTSP; download it first, or let \
          ffmpeg read it: ffmpeg -i '{url}' -f yuv4mpegpipe - | foveate simulate - -o out"
     )]
-    Url {
-        /// The address as given, without its secrets.
-        url: String,
-    },
+    Url { url: String },
     /// A folder or pattern has images and videos, of which only one kind can be read.
     #[error(
         "`{place}` holds images and videos ({images} and {videos}, such as `{video}`), so it is not clear which \
          to read; name the images, for example '{pattern}', or the video",
         video = video.display()
     )]
-    Mixed {
-        /// The folder or pattern as given.
-        place: String,
-        /// The number of images.
-        images: usize,
-        /// The number of videos.
-        videos: usize,
-        /// The first of the videos.
-        video: PathBuf,
-        /// A pattern that matches the images.
-        pattern: String,
-    },
+    Mixed { place: String, images: usize, videos: usize, video: PathBuf, pattern: String },
     /// A file has no frames.
     #[error("`{}` holds no frames: {problem}", path.display())]
-    Frameless {
-        /// The path of the file.
-        path: PathBuf,
-        /// The text that says what the file is, and what to name instead.
-        problem: String,
-    },
+    Frameless { path: PathBuf, problem: String },
     /// An image of several frames is among other images.
     #[error(
         "`{}` holds several frames, as an animation or a stream of images does, and here only the first one would \
          be read; simulate it on its own, as a clip, to read all frames, or save the frame that you need",
         path.display()
     )]
-    Animated {
-        /// The path of the file.
-        path: PathBuf,
-    },
+    Animated { path: PathBuf },
     /// No image matches a pattern.
     #[error("no image matches `{pattern}`; check the pattern (image types are {TYPES})")]
-    NoMatch {
-        /// The pattern as given.
-        pattern: String,
-    },
+    NoMatch { pattern: String },
     /// A pattern has a syntax error.
     #[error("`{pattern}` is not a valid pattern: {problem}")]
-    Pattern {
-        /// The pattern as given.
-        pattern: String,
-        /// The text that says what is wrong with the pattern.
-        problem: String,
-    },
+    Pattern { pattern: String, problem: String },
     /// A folder has neither images nor clips.
     #[error("folder `{}` holds no image and no video; image types are {TYPES}", path.display())]
-    EmptyFolder {
-        /// The path of the folder.
-        path: PathBuf,
-    },
+    EmptyFolder { path: PathBuf },
     /// A scene, camera, stream or video is combined with other inputs in one clip.
     #[error("`{input}` cannot be combined with other inputs; give it on its own")]
-    NotAlone {
-        /// The input as given.
-        input: String,
-    },
+    NotAlone { input: String },
     /// A video gives no frame.
     #[error("{}", video_problem(path, problem))]
-    Video {
-        /// The path of the file.
-        path: PathBuf,
-        /// The problem, as ffmpeg describes it.
-        problem: String,
-    },
+    Video { path: PathBuf, problem: String },
     /// A camera of this machine gives no frame.
     #[error(
         "camera `{}` gives no frame: {problem}; check that it is connected (`ls /dev/video*`) and that no \
          other program uses it",
         path.display()
     )]
-    Camera {
-        /// The path of the device.
-        path: PathBuf,
-        /// The problem, as ffmpeg describes it.
-        problem: String,
-    },
+    Camera { path: PathBuf, problem: String },
     /// A network camera gives no frame.
     #[error("camera `{url}` gives no frame: {problem}; {}", network_advice(problem))]
-    Network {
-        /// The address, without user and password.
-        url: String,
-        /// The problem, as ffmpeg describes it.
-        problem: String,
-    },
+    Network { url: String, problem: String },
     /// A raw stream gives no frame.
     #[error(
         "`{name}` is not a valid YUV4MPEG2 stream: {problem}; make one with `ffmpeg -i FILE -f yuv4mpegpipe -`"
     )]
-    Y4m {
-        /// The name of the file, or of standard input.
-        name: String,
-        /// The text that says what is wrong.
-        problem: String,
-    },
+    Y4m { name: String, problem: String },
     /// Raw video gives no frame.
     #[error("`{name}` is not raw video of this kind: {problem}")]
-    Raw {
-        /// The name of the file, or of standard input.
-        name: String,
-        /// The text that says what is wrong, and what to check.
-        problem: String,
-    },
+    Raw { name: String, problem: String },
     /// A file of times cannot be used.
     #[error("the times in `{}` cannot be used: {problem}", path.display())]
-    Timestamps {
-        /// The path of the file.
-        path: PathBuf,
-        /// The text that says what is wrong, and what would be right.
-        problem: String,
-    },
+    Timestamps { path: PathBuf, problem: String },
     /// A ZIP archive cannot be read.
     #[error("the ZIP archive `{}` cannot be read: {problem}", path.display())]
-    Zip {
-        /// The path of the archive.
-        path: PathBuf,
-        /// The text that says what is wrong, and what to do.
-        problem: String,
-    },
+    Zip { path: PathBuf, problem: String },
     /// A file of many images cannot be read.
     #[error("data set `{}` cannot be read: {problem}; copy or fetch it again", path.display())]
-    DataSet {
-        /// The path of the file.
-        path: PathBuf,
-        /// The text that says what is wrong.
-        problem: String,
-    },
+    DataSet { path: PathBuf, problem: String },
     /// An option cannot be used for this input.
     #[error("{option} cannot be used: {problem}")]
-    Option {
-        /// The option.
-        option: &'static str,
-        /// The text that says what is wrong, and what to do.
-        problem: String,
-    },
+    Option { option: &'static str, problem: String },
     /// The part to crop does not lie inside the frame.
     #[error(
         "--crop {}x{}+{}+{} does not lie inside the frame of {}x{} pixels",
         crop.size.0, crop.size.1, crop.origin.0, crop.origin.1, size.0, size.1
     )]
-    Crop {
-        /// The part as given.
-        crop: CropRect,
-        /// The width and height of the frame.
-        size: (u32, u32),
-    },
+    Crop { crop: CropRect, size: (u32, u32) },
     /// The input is a device that is not named as a camera.
     #[error(
         "`{}` is a device, but frames come from files, pipes and cameras; name a camera as `v4l2:{}`",
         path.display(),
         path.display()
     )]
-    Device {
-        /// The path of the device.
-        path: PathBuf,
-    },
+    Device { path: PathBuf },
     /// ffmpeg is missing or cannot be started.
     #[error(transparent)]
     Tool(Box<ToolError>),
     /// A file or folder cannot be read at all.
     #[error("cannot read `{}`: {problem}", path.display())]
-    Unreadable {
-        /// The path of the file or folder.
-        path: PathBuf,
-        /// The text that says why.
-        problem: String,
-    },
+    Unreadable { path: PathBuf, problem: String },
     /// A file is not an image of a known type.
     #[error("`{}` is not an image of a supported type; convert it to one of {TYPES}", path.display())]
-    UnsupportedType {
-        /// The path of the file.
-        path: PathBuf,
-    },
+    UnsupportedType { path: PathBuf },
     /// An image has a known type that is not read.
     #[error(
         "`{}` is an image of the type {name}, which is not read; convert it to PNG, for example with ImageMagick: \
          `magick '{}' '{}'`, or many at once with `mogrify -format png`; image types are {TYPES}",
         path.display(), path.display(), converted(path).display()
     )]
-    ImageType {
-        /// The path of the file.
-        path: PathBuf,
-        /// The name of the type.
-        name: &'static str,
-    },
+    ImageType { path: PathBuf, name: &'static str },
     /// An image has a supported type, but a variant that is not supported.
     #[error("image `{}` cannot be decoded: {problem}; export it again as a plain PNG", path.display())]
-    UnsupportedFeature {
-        /// The path of the file.
-        path: PathBuf,
-        /// The message of the decoder.
-        problem: String,
-    },
+    UnsupportedFeature { path: PathBuf, problem: String },
     /// An image ends too early.
     #[error("image `{}` is truncated: {problem}; copy or export it again", path.display())]
-    Truncated {
-        /// The path of the file.
-        path: PathBuf,
-        /// The text that says what is missing.
-        problem: String,
-    },
+    Truncated { path: PathBuf, problem: String },
     /// An image cannot be decoded.
     #[error("image `{}` is damaged: {problem}; copy or export it again", path.display())]
-    Damaged {
-        /// The path of the file.
-        path: PathBuf,
-        /// The message of the decoder.
-        problem: String,
-    },
+    Damaged { path: PathBuf, problem: String },
     /// An image exceeds the limits.
     #[error(
         "image `{}` is too large; the limits are {MAX_SIDE} pixels per side and {MAX_FILE_GIB} GiB, \
          so scale it down or cut it",
         path.display()
     )]
-    TooLarge {
-        /// The path of the file.
-        path: PathBuf,
-    },
+    TooLarge { path: PathBuf },
     /// The frames of one run differ in size.
     #[error(
         "all frames of a run must have the same size, but `{first}` has {}x{} pixels and `{other}` has {}x{}; \
          scale them with --resize, or simulate them separately",
         first_size.0, first_size.1, other_size.0, other_size.1
     )]
-    MixedSizes {
-        /// The name of the first frame.
-        first: String,
-        /// The width and height of the first frame.
-        first_size: (u32, u32),
-        /// The name of the first frame that differs.
-        other: String,
-        /// The width and height of that frame.
-        other_size: (u32, u32),
-    },
+    MixedSizes { first: String, first_size: (u32, u32), other: String, other_size: (u32, u32) },
     /// A source has no frame.
     #[error("{inputs} holds no frame; at least one is needed")]
-    NoFrames {
-        /// The inputs as given.
-        inputs: String,
-    },
+    NoFrames { inputs: String },
     /// A frame rate is zero or infinite.
     #[error("{frames} frames in {seconds} s are not a frame rate; both numbers must be at least 1")]
-    FrameRate {
-        /// The number of frames as given.
-        frames: u32,
-        /// The number of seconds as given.
-        seconds: u32,
-    },
+    FrameRate { frames: u32, seconds: u32 },
     /// The system cannot start a thread.
     #[error("the system cannot start a thread: {reason}; try again with fewer programs running")]
-    Thread {
-        /// The reason that the system gives.
-        reason: String,
-    },
+    Thread { reason: String },
     /// The user asked to stop.
     #[error("interrupted")]
     Interrupted,

@@ -18,6 +18,7 @@ use thiserror::Error;
 /// An error that keeps a run from starting or finishing.
 #[derive(Debug, Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "fields of variants are named in the messages")]
 pub enum InferenceError {
     /// The network cannot be read, or cannot be run on the frames.
     #[error(transparent)]
@@ -30,18 +31,10 @@ pub enum InferenceError {
     Array(#[from] NpyError),
     /// A file that the user named cannot be read.
     #[error("cannot read `{}`: {source}", path.display())]
-    Read {
-        /// The path of the file.
-        path: PathBuf,
-        /// The reason.
-        source: io::Error,
-    },
+    Read { path: PathBuf, source: io::Error },
     /// An option names something that does not exist or cannot be used.
     #[error("{problem}")]
-    InvalidOption {
-        /// The message: the chosen value, and the values that exist.
-        problem: String,
-    },
+    InvalidOption { problem: String },
     /// The clips cannot be played, or the user stopped the run before there was a result.
     #[error(transparent)]
     Playback(#[from] PlaybackError),
@@ -61,51 +54,27 @@ pub enum InferenceError {
     #[error(
         "no output is a picture, which has 1 or 3 channels and the height and width of the input: {outputs}; leave out png"
     )]
-    NoPictureOutput {
-        /// The outputs with their shapes.
-        outputs: String,
-    },
+    NoPictureOutput { outputs: String },
     /// A table cannot be written.
     #[error("cannot write the table `{name}`: {source}")]
-    Table {
-        /// The name of the file.
-        name: String,
-        /// The reason.
-        source: io::Error,
-    },
+    Table { name: String, source: io::Error },
     /// A layer cannot be mapped onto the accelerator.
     #[error("node `{node}` on the accelerator: {source}")]
-    Accelerator {
-        /// The name of the node.
-        node: String,
-        /// The reason.
-        source: AcceleratorError,
-    },
+    Accelerator { node: String, source: AcceleratorError },
     /// The frames do not fit into memory together.
     #[error(
         "the pixels of the first {frames} frames take more than 4 GiB, and tuning keeps all of them in memory; cut the clip with --max-frames"
     )]
-    TooLong {
-        /// The number of frames that fit.
-        frames: usize,
-    },
+    TooLong { frames: usize },
     /// There are too few frames for two halves.
     #[error(
         "tuning uses one half of the frames and reports the other, for which it needs {least} frames, but there {} {frames}",
         if *frames == 1 { "is" } else { "are" }
     )]
-    TooShort {
-        /// The number of frames that there are.
-        frames: usize,
-        /// The least number of frames that is enough.
-        least: usize,
-    },
+    TooShort { frames: usize, least: usize },
     /// The clips have no counted frame.
     #[error(
         "no frame of the {clips} counts, because the first frame of a clip is computed whole; give clips of at least 2 frames"
     )]
-    NoCountedFrame {
-        /// The clips in words.
-        clips: &'static str,
-    },
+    NoCountedFrame { clips: &'static str },
 }

@@ -5,37 +5,21 @@ use std::path::{Path, PathBuf};
 
 /// The reason why a network cannot be read.
 #[derive(Debug, thiserror::Error)]
+#[expect(missing_docs, reason = "fields of variants are named in the messages")]
 pub enum NetworkError {
     /// A file cannot be read.
     #[error("cannot read `{}`: {source}", path.display())]
-    Io {
-        /// The path of the file.
-        path: PathBuf,
-        /// The error of the operating system.
-        source: std::io::Error,
-    },
+    Io { path: PathBuf, source: std::io::Error },
     /// The file is not an ONNX model.
     #[error("`{}` is not an ONNX model: {problem}", path.display())]
-    NotOnnx {
-        /// The path of the file.
-        path: PathBuf,
-        /// The problem in words.
-        problem: String,
-    },
+    NotOnnx { path: PathBuf, problem: String },
     /// An operator is not supported.
     #[error(
         "node `{}` has the operator `{}`, which is not supported{advice}",
         printable_text(node),
         printable_text(operator)
     )]
-    UnsupportedOperator {
-        /// The name of the node.
-        node: String,
-        /// The operator with its domain.
-        operator: String,
-        /// The reason, or advice, with the punctuation before it; empty where it has been given before.
-        advice: &'static str,
-    },
+    UnsupportedOperator { node: String, operator: String, advice: &'static str },
     /// A node is not valid, or uses its operator in a way that is not supported.
     #[error(
         "node `{}` ({}): {}",
@@ -43,14 +27,7 @@ pub enum NetworkError {
         printable_text(operator),
         printable_text(problem)
     )]
-    InvalidNode {
-        /// The name of the node.
-        node: String,
-        /// The operator of the node.
-        operator: String,
-        /// The problem in words.
-        problem: String,
-    },
+    InvalidNode { node: String, operator: String, problem: String },
     /// The network as a whole is not valid or not supported.
     #[error("the network: {}", printable_text(.0))]
     InvalidNetwork(String),
@@ -58,12 +35,7 @@ pub enum NetworkError {
     #[error(
         "the network takes frames of {wanted} pixels, but these frames have {found}; give --resize {wanted}, or --framing letterbox to scale behind the camera"
     )]
-    FrameSizeMismatch {
-        /// The width x height of the input.
-        wanted: String,
-        /// The width x height of the frames.
-        found: String,
-    },
+    FrameSizeMismatch { wanted: String, found: String },
 }
 
 impl NetworkError {

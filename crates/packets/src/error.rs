@@ -7,93 +7,41 @@ use thiserror::Error;
 /// An error in the format of a stream or of a packet to be written.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "fields of variants are named in the messages")]
 pub enum PacketError {
     /// The stream has no FRAME packet.
     #[error(
         "`{stream}` has no FRAME packet in its {bytes} bytes; it must be a stream of region packets, such as `foveate \
          simulate --packets` writes"
     )]
-    NoFrame {
-        /// The name of the stream.
-        stream: String,
-        /// The length of the stream in bytes.
-        bytes: u64,
-    },
+    NoFrame { stream: String, bytes: u64 },
     /// The stream has another version of the format.
     #[error(
         "frame {frame} of the stream has version {version} of the packet format; this program reads version 1"
     )]
-    UnsupportedVersion {
-        /// The number of the frame.
-        frame: u32,
-        /// The version in its FRAME.
-        version: u16,
-    },
+    UnsupportedVersion { frame: u32, version: u16 },
     /// The stream belongs to another design.
     #[error(
         "frame {frame} of the stream was sent by design {stream:016x}, but the configuration makes design {given:016x} of \
          its {width}x{height} pixels; give the configuration of the camera that sent it"
     )]
-    DesignMismatch {
-        /// The number of the frame.
-        frame: u32,
-        /// The fingerprint in the stream.
-        stream: u64,
-        /// The fingerprint of the given design.
-        given: u64,
-        /// The width of a frame in the stream, in pixels.
-        width: u16,
-        /// The height of a frame in the stream, in pixels.
-        height: u16,
-    },
+    DesignMismatch { frame: u32, stream: u64, given: u64, width: u16, height: u16 },
     /// The fingerprint is that of the design, but another field of the FRAME differs.
     #[error(
         "frame {frame} of the stream has design {stream:016x}, but not its {what}; the sender breaks the format"
     )]
-    FieldMismatch {
-        /// The number of the frame.
-        frame: u32,
-        /// The fingerprint in the stream.
-        stream: u64,
-        /// The name of the field that differs.
-        what: &'static str,
-    },
+    FieldMismatch { frame: u32, stream: u64, what: &'static str },
     /// A number is outside the range of its field, or of the design.
     #[error("the {field} of a packet cannot be {value}: it is {least} to {most}")]
-    FieldOutOfRange {
-        /// The name of the field.
-        field: &'static str,
-        /// The number.
-        value: u64,
-        /// The smallest allowed number.
-        least: u64,
-        /// The largest allowed number.
-        most: u64,
-    },
+    FieldOutOfRange { field: &'static str, value: u64, least: u64, most: u64 },
     /// A displacement is outside the search of the design.
     #[error(
         "the displacement of a packet cannot be ({dx}, {dy}): dx and dy are -{radius} to {radius}"
     )]
-    DisplacementOutOfRange {
-        /// The columns to the right.
-        dx: i8,
-        /// The rows down.
-        dy: i8,
-        /// The radius of the search.
-        radius: u32,
-    },
+    DisplacementOutOfRange { dx: i8, dy: i8, radius: u32 },
     /// The number of values differs from that in such a packet of the design.
     #[error("a {packet} of this design carries {right} {what}, not {found}")]
-    ValueCountMismatch {
-        /// The type of the packet.
-        packet: &'static str,
-        /// The name of the values.
-        what: &'static str,
-        /// The number of values that were given.
-        found: usize,
-        /// The number of values in such a packet of the design.
-        right: usize,
-    },
+    ValueCountMismatch { packet: &'static str, what: &'static str, found: usize, right: usize },
 }
 
 impl PacketError {

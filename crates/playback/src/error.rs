@@ -26,6 +26,7 @@ pub enum PlaybackError {
 /// A fault of the clips, or of the files that belong to them.
 #[derive(Debug, Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "fields of variants are named in the messages")]
 pub enum InputError {
     /// A clip cannot be opened or read.
     #[error(transparent)]
@@ -44,42 +45,20 @@ pub enum InputError {
         "all clips of a run must have one size, but `{first}` has {}x{} pixels and `{other}` has {}x{}; give --resize, or --crop",
         first_size.0, first_size.1, other_size.0, other_size.1
     )]
-    DifferentSizes {
-        /// The name of the first clip.
-        first: String,
-        /// The width and height of the first clip in pixels.
-        first_size: (u32, u32),
-        /// The name of the first clip that differs.
-        other: String,
-        /// The width and height of the clip that differs, in pixels.
-        other_size: (u32, u32),
-    },
+    DifferentSizes { first: String, first_size: (u32, u32), other: String, other_size: (u32, u32) },
     /// One of several inputs cannot be opened a second time.
     #[error(
         "`{input}` can be read only once, so it must be the only input; record it to a file, or give it on its own"
     )]
-    ReadOnceAmongOthers {
-        /// The input as the user named it.
-        input: String,
-    },
+    ReadOnceAmongOthers { input: String },
     /// An input of a run that reads its clips several times can be read only once.
     #[error(
         "`{input}` can be read only once, but this command reads its inputs several times; record it to a file first"
     )]
-    ReadOnce {
-        /// The input as the user named it.
-        input: String,
-    },
+    ReadOnce { input: String },
     /// A clip has too few frames.
     #[error("`{clip}` has {frames} frames; at least {least} are needed")]
-    TooFewFrames {
-        /// The name of the clip.
-        clip: String,
-        /// The number of frames of the clip.
-        frames: u64,
-        /// The least number of frames that is enough.
-        least: u64,
-    },
+    TooFewFrames { clip: String, frames: u64, least: u64 },
 }
 
 impl PlaybackError {

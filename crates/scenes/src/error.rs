@@ -6,17 +6,11 @@ use thiserror::Error;
 /// An error that keeps a scene from being made.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "fields of variants are named in the messages")]
 pub enum SceneError {
     /// A name of a scene that does not exist.
     #[error("unknown scene `{name}`{}; scenes are {known}", hint(nearest.as_deref()))]
-    UnknownScene {
-        /// The name as the user wrote it.
-        name: String,
-        /// The most similar name of a scene, if one is similar enough.
-        nearest: Option<String>,
-        /// The names of all scenes.
-        known: String,
-    },
+    UnknownScene { name: String, nearest: Option<String>, known: String },
 }
 
 fn hint(nearest: Option<&str>) -> String {

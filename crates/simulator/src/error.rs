@@ -20,6 +20,7 @@ use thiserror::Error;
 /// The error that is returned if a simulation cannot be started or finished.
 #[derive(Debug, Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "fields of variants are named in the messages")]
 pub enum SimulatorError {
     /// The clip cannot be played, or the user stopped the run before its first frame was done.
     #[error(transparent)]
@@ -35,29 +36,16 @@ pub enum SimulatorError {
     Chart(#[from] ChartError),
     /// No clip of a batch has a result.
     #[error("none of the {clips} clips could be simulated; the first failed with: {first}")]
-    NoClip {
-        /// The number of clips.
-        clips: usize,
-        /// The message of the first clip.
-        first: String,
-    },
+    NoClip { clips: usize, first: String },
     /// The output folder cannot be written.
     #[error(transparent)]
     Output(#[from] StagingError),
     /// A file or folder cannot be written.
     #[error("cannot write `{}`: {source}; check free space and permissions, or choose another folder", path.display())]
-    Write {
-        /// The path of the file or folder.
-        path: PathBuf,
-        /// The error of the system.
-        source: io::Error,
-    },
+    Write { path: PathBuf, source: io::Error },
     /// The system cannot start a thread.
     #[error("the system cannot start a thread: {reason}; try again with fewer programs running")]
-    Thread {
-        /// The reason that the system gives.
-        reason: String,
-    },
+    Thread { reason: String },
     /// ffmpeg cannot be started.
     #[error(transparent)]
     Tool(Box<ToolError>),
@@ -66,46 +54,22 @@ pub enum SimulatorError {
     NoVideo(#[source] Box<ToolError>),
     /// A video could not be written to its end.
     #[error("ffmpeg cannot write `{}`: {problem}; check free space, or write pictures instead", path.display())]
-    VideoOutput {
-        /// The path of the file.
-        path: PathBuf,
-        /// The message of ffmpeg.
-        problem: String,
-        /// The disk was full.
-        is_full: bool,
-    },
+    VideoOutput { path: PathBuf, problem: String, is_full: bool },
     /// The contrast is so small that it would give too many events.
     #[error("a contrast of {contrast} is too small; it must be at least 0.01")]
-    Contrast {
-        /// The contrast as given.
-        contrast: String,
-    },
+    Contrast { contrast: String },
     /// A stream claims a frame size that would need too much memory.
     #[error(
         "frame {frame} of the stream says that frames have {width}x{height} pixels, which are more than the {most} that a stream \
          alone may ask for; if that is right, give the camera's frame.width and frame.height in the configuration"
     )]
-    ClaimedSize {
-        /// The number of the frame.
-        frame: u32,
-        /// The frame width in the stream.
-        width: u32,
-        /// The frame height in the stream.
-        height: u32,
-        /// The largest number of pixels.
-        most: u32,
-    },
+    ClaimedSize { frame: u32, width: u32, height: u32, most: u32 },
     /// Clocks are asked for from a set, whose images do not follow one another.
     #[error("images of a set do not follow one another; --clocks needs a clip")]
     ClocksOfSet,
     /// A table of stalls cannot be read.
     #[error("the stalls in `{}`: {problem}", path.display())]
-    Stalls {
-        /// The path of the table.
-        path: PathBuf,
-        /// The reason.
-        problem: String,
-    },
+    Stalls { path: PathBuf, problem: String },
     /// Pixel events are asked for from a set, whose images have no order in time.
     #[error("images of a set have no order in time; pixel events need a clip")]
     PixelEventsOfSet,
@@ -114,51 +78,22 @@ pub enum SimulatorError {
         "{inputs} is a clip, but a data set is made of unrelated images: IDX or CIFAR files, or image files \
          with --images set; for a clip, use `foveate simulate`"
     )]
-    NotASet {
-        /// The inputs as given.
-        inputs: String,
-    },
+    NotASet { inputs: String },
     /// The frame that is to be explained does not exist.
     #[error("there is no frame {frame}; {inputs} has {frames} frames, counted from 0")]
-    NoSuchFrame {
-        /// The number of the frame that was asked for.
-        frame: u64,
-        /// The inputs as given.
-        inputs: String,
-        /// The number of frames.
-        frames: u64,
-    },
+    NoSuchFrame { frame: u64, inputs: String, frames: u64 },
     /// The region that is to be explained does not exist.
     #[error("there is no region {x},{y}; columns are 0 to {}, rows 0 to {}", columns - 1, rows - 1)]
-    NoSuchRegion {
-        /// The column that was asked for.
-        x: u32,
-        /// The row that was asked for.
-        y: u32,
-        /// The number of columns of regions.
-        columns: u32,
-        /// The number of rows of regions.
-        rows: u32,
-    },
+    NoSuchRegion { x: u32, y: u32, columns: u32, rows: u32 },
     /// The stream cannot be read as a stream of packets.
     #[error(transparent)]
     Packets(#[from] PacketError),
     /// Reading a stream of packets failed.
     #[error("cannot read `{stream}`: {source}")]
-    ReadStream {
-        /// The name of the stream.
-        stream: String,
-        /// The error of the system.
-        source: io::Error,
-    },
+    ReadStream { stream: String, source: io::Error },
     /// The output cannot be made from a stream of packets.
     #[error("a stream of packets gives no {output}: {why}")]
-    NotInStream {
-        /// The output that was asked for.
-        output: &'static str,
-        /// The reason.
-        why: &'static str,
-    },
+    NotInStream { output: &'static str, why: &'static str },
     /// The configuration is not valid.
     #[error(transparent)]
     Design(#[from] ConfigError),

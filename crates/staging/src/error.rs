@@ -9,72 +9,44 @@ use thiserror::Error;
 /// An output cannot be written.
 #[derive(Debug, Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "fields of variants are named in the messages")]
 pub enum StagingError {
     /// The path names no folder that can be created.
     #[error("output `{}` does not name a folder that can be created; choose another", path.display())]
-    InvalidPath {
-        /// The path as given.
-        path: PathBuf,
-    },
+    InvalidPath { path: PathBuf },
     /// The folder exists and is not empty.
     #[error("output folder `{}` is not empty; choose another folder, or replace it with --force", path.display())]
-    NotEmpty {
-        /// The path of the folder.
-        path: PathBuf,
-    },
+    NotEmpty { path: PathBuf },
     /// The folder does not hold the kind of output that would replace it.
     #[error(
         "output folder `{}` does not hold {what}, so it is not replaced; choose another folder, or empty it",
         path.display()
     )]
-    OtherContent {
-        /// The path of the folder.
-        path: PathBuf,
-        /// The expected content, with its article.
-        what: &'static str,
-    },
+    OtherContent { path: PathBuf, what: &'static str },
     /// The folder is of the right kind, but has no list of the files that may be removed.
     #[error(
         "output folder `{}` has no list of the files that Foveate wrote (.foveate), so it is not replaced; \
          choose another folder, or move what is in it",
         path.display()
     )]
-    NoList {
-        /// The path of the folder.
-        path: PathBuf,
-    },
+    NoList { path: PathBuf },
     /// The folder is of the right kind, but holds other files, too.
     #[error(
         "output folder `{}` is not replaced, because it holds files that Foveate did not write, or that were changed \
          since: {names}; move them, or choose another folder",
         path.display()
     )]
-    UnlistedFiles {
-        /// The path of the folder.
-        path: PathBuf,
-        /// The names of the first other files, and the number of further ones.
-        names: String,
-    },
+    UnlistedFiles { path: PathBuf, names: String },
     /// Files were added to a folder while it was replaced.
     #[error(
         "output folder `{}` is replaced, but files came into the earlier one meanwhile; they are kept in `{}`",
         path.display(),
         kept.display()
     )]
-    FilesKept {
-        /// The path of the folder.
-        path: PathBuf,
-        /// The folder with those files.
-        kept: PathBuf,
-    },
+    FilesKept { path: PathBuf, kept: PathBuf },
     /// A file or folder cannot be written.
     #[error("cannot write `{}`: {source}; check free space and permissions, or choose another folder", path.display())]
-    Unwritable {
-        /// The path of the file or folder.
-        path: PathBuf,
-        /// The error of the system.
-        source: io::Error,
-    },
+    Unwritable { path: PathBuf, source: io::Error },
 }
 
 impl StagingError {

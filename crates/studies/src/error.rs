@@ -12,6 +12,7 @@ use thiserror::Error;
 /// An error that keeps a study from starting or finishing; nothing is written then.
 #[derive(Debug, Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "fields of variants are named in the messages")]
 pub enum StudyError {
     /// The clips cannot be played, or the user stopped the study.
     #[error(transparent)]
@@ -26,12 +27,7 @@ pub enum StudyError {
     #[error(
         "`{name}` is a set of unrelated images, in which nothing changes; the study {study} needs clips"
     )]
-    DataSet {
-        /// The name of the input.
-        name: String,
-        /// The name of the study.
-        study: &'static str,
-    },
+    DataSet { name: String, study: &'static str },
     /// The study `sensor` needs the events of a sensor.
     #[error(
         "the study `sensor` needs the events of a real sensor; name their file with --sensor-events"
@@ -39,18 +35,10 @@ pub enum StudyError {
     NoSensorEvents,
     /// The study `sensor` takes a single clip.
     #[error("the study `sensor` takes one clip, but {clips} are given")]
-    SeveralClips {
-        /// The number of clips that were given.
-        clips: usize,
-    },
+    SeveralClips { clips: usize },
     /// The events of the sensor cannot be read.
     #[error("cannot read sensor events `{}`: {problem}; events are CSV with the columns t_us, x, y, sorted by time, or a file in EVT 2.0, EVT 3.0 or AEDAT4", path.display())]
-    SensorEvents {
-        /// The path of the file.
-        path: PathBuf,
-        /// The problem.
-        problem: String,
-    },
+    SensorEvents { path: PathBuf, problem: String },
     /// No event of the recording falls into the time of the clip.
     #[error(
         "no event of `{}` lies within the time of the clip, which is {first} to {last} us with \
@@ -58,18 +46,7 @@ pub enum StudyError {
          time of the first frame on that clock",
         path.display()
     )]
-    SensorTime {
-        /// The path of the file.
-        path: PathBuf,
-        /// The time of the first frame on the clock of the events, in microseconds.
-        first: u64,
-        /// The time of the last frame on this clock, in microseconds.
-        last: u64,
-        /// The time of the first event, in microseconds.
-        from: u64,
-        /// The time of the last event, in microseconds.
-        to: u64,
-    },
+    SensorTime { path: PathBuf, first: u64, last: u64, from: u64, to: u64 },
     /// The study `recall` needs ground-truth boxes.
     #[error(
         "the study `recall` needs ground-truth boxes of objects; name their file or folder with --boxes"
@@ -81,12 +58,7 @@ pub enum StudyError {
          frames, or --images set for unrelated images",
         left_out.iter().map(|sentence| format!(": {sentence}")).collect::<String>()
     )]
-    NoObjects {
-        /// The names of the clips.
-        clips: String,
-        /// Sentences about boxes that are left out.
-        left_out: Vec<String>,
-    },
+    NoObjects { clips: String, left_out: Vec<String> },
     /// A chart cannot be drawn.
     #[error(transparent)]
     Chart(#[from] ChartError),

@@ -7,6 +7,7 @@ use thiserror::Error;
 /// The error that is returned if a model cannot be made, or if a delivery is not possible.
 #[derive(Debug, Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "fields of variants are named in the messages")]
 pub enum TimedError {
     /// The pixels are not a frame of the camera, or the threads of the engine cannot be started.
     #[error(transparent)]
@@ -16,12 +17,7 @@ pub enum TimedError {
         "the source delivers {given} beats, but a frame has {expected}; deliver whole frames, or \
          set hardware.sync = true"
     )]
-    Beats {
-        /// The number of beats of the delivery.
-        given: u64,
-        /// The number of beats of a frame.
-        expected: u64,
-    },
+    Beats { given: u64, expected: u64 },
     /// The source delivers nothing.
     #[error("a delivery has 0 beats; it needs at least one")]
     NoBeats,
@@ -30,21 +26,11 @@ pub enum TimedError {
         "the pause before beat {beat} is listed after that before beat {before}; list pauses in \
          the order of the beats"
     )]
-    OfferOrder {
-        /// The beat that comes too late in the list.
-        beat: u64,
-        /// The beat before it in the list.
-        before: u64,
-    },
+    OfferOrder { beat: u64, before: u64 },
     /// The reset belongs to an earlier delivery.
     #[error(
         "the reset at edge {reset} comes before edge {earliest}, at which the core could take the \
          delivery; give it to the delivery before"
     )]
-    EarlyReset {
-        /// The edge of the reset.
-        reset: u64,
-        /// The first edge at which this delivery can have a reset.
-        earliest: u64,
-    },
+    EarlyReset { reset: u64, earliest: u64 },
 }

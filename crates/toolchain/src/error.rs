@@ -11,6 +11,7 @@ use crate::tool::{Tool, ToolVersion};
 /// An external tool is missing, is too old, or failed.
 #[derive(Debug, Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "fields of variants are named in the messages")]
 pub enum ToolError {
     /// The tool is not in `PATH`.
     #[error(
@@ -19,10 +20,7 @@ pub enum ToolError {
         tool.package_name(),
         tool.variable()
     )]
-    Missing {
-        /// The tool that was searched for.
-        tool: Tool,
-    },
+    Missing { tool: Tool },
 
     /// The environment variable does not name an executable file.
     #[error(
@@ -30,12 +28,7 @@ pub enum ToolError {
         tool.variable(),
         path.display()
     )]
-    NotExecutable {
-        /// The tool that was searched for.
-        tool: Tool,
-        /// The value of the variable.
-        path: PathBuf,
-    },
+    NotExecutable { tool: Tool, path: PathBuf },
 
     /// The tool is older than the oldest version that works.
     #[error(
@@ -45,16 +38,7 @@ pub enum ToolError {
         tool.package_name(),
         tool.variable()
     )]
-    TooOld {
-        /// The tool.
-        tool: Tool,
-        /// The path of the tool.
-        path: PathBuf,
-        /// The version that the tool reports.
-        found: ToolVersion,
-        /// The oldest version that works.
-        needed: ToolVersion,
-    },
+    TooOld { tool: Tool, path: PathBuf, found: ToolVersion, needed: ToolVersion },
 
     /// The tool ran, but did not report its version.
     #[error(
@@ -62,102 +46,47 @@ pub enum ToolError {
         path.display(),
         tool.variable()
     )]
-    UnknownVersion {
-        /// The tool.
-        tool: Tool,
-        /// The path of the tool.
-        path: PathBuf,
-        /// The beginning of its output.
-        output: String,
-    },
+    UnknownVersion { tool: Tool, path: PathBuf, output: String },
 
     /// The command ended with a failure.
     #[error("`{command}` failed ({status}){}\n{tail}", log_location(log.as_deref()))]
-    Failed {
-        /// The command line.
-        command: String,
-        /// The exit code or signal.
-        status: String,
-        /// The end of the log.
-        tail: String,
-        /// The complete log.
-        full: String,
-        /// The file with the complete log, if the log was kept.
-        log: Option<PathBuf>,
-    },
+    Failed { command: String, status: String, tail: String, full: String, log: Option<PathBuf> },
 
     /// A header of a library that Verilator's run time uses is not installed.
     #[error(
         "Verilator's run time needs `{header}`, which is not installed; \
          install it with `apt-get install {package}`"
     )]
-    MissingHeader {
-        /// The header.
-        header: &'static str,
-        /// The Debian package that contains it.
-        package: &'static str,
-    },
+    MissingHeader { header: &'static str, package: &'static str },
 
     /// The command was stopped because it took too long.
     #[error("`{command}` was stopped after {} s without finishing", limit.as_secs_f64())]
-    TimedOut {
-        /// The command line.
-        command: String,
-        /// The time limit.
-        limit: Duration,
-    },
+    TimedOut { command: String, limit: Duration },
 
     /// The command succeeded, but a file that it should have written is missing.
     #[error("`{command}` succeeded but did not write `{file}`\n{tail}")]
-    MissingOutput {
-        /// The command line.
-        command: String,
-        /// The name of the missing file.
-        file: String,
-        /// The end of the log.
-        tail: String,
-    },
+    MissingOutput { command: String, file: String, tail: String },
 
     /// A port of the simulated module does not have the required width.
     #[error(
         "port `{port}` of module `{top}` has {found} bits, but the design has {wanted}; \
          the Verilog may belong to another design"
     )]
-    PortWidth {
-        /// The name of the module.
-        top: String,
-        /// The name of the port.
-        port: String,
-        /// The width in the Verilog, in bits.
-        found: u32,
-        /// The required width, in bits.
-        wanted: u32,
-    },
+    PortWidth { top: String, port: String, found: u32, wanted: u32 },
 
     /// The simulated module lacks a port.
     #[error("module `{top}` has no port `{port}`; the Verilog may belong to another design")]
-    MissingPort {
-        /// The name of the module.
-        top: String,
-        /// The name of the missing port.
-        port: String,
-    },
+    MissingPort { top: String, port: String },
 
     /// The name of a source would leave its folder, or has a special meaning in a script.
     #[error(
         "source name `{name}` is not valid; use letters, digits, `.`, `_`, `+` and `-`, no `-` or `+` at the beginning, and no `..`"
     )]
-    InvalidSourceName {
-        /// The name of the source.
-        name: String,
-    },
+    InvalidSourceName { name: String },
 
     /// A program that runs has written no line for too long.
     #[error("it has sent nothing for {} s", limit.as_secs())]
-    Silent {
-        /// The time limit.
-        limit: Duration,
-    },
+    Silent { limit: Duration },
     /// The user has requested a stop.
     #[error("interrupted")]
     Interrupted,
@@ -169,39 +98,21 @@ pub enum ToolError {
         path.display(),
         folder.display()
     )]
-    Unusable {
-        /// The path of the file.
-        path: PathBuf,
-        /// The folder of its cache entry.
-        folder: PathBuf,
-        /// The fault of the file.
-        reason: String,
-    },
+    Unusable { path: PathBuf, folder: PathBuf, reason: String },
 
     /// A folder that the user chooses cannot be written: the build cache or the folder of temporary
     /// files.
     #[error("cannot {action} `{}`: {source}; {advice}", path.display())]
     UnwritablePlace {
-        /// The action that failed, such as "create".
         action: &'static str,
-        /// The path of the file or folder.
         path: PathBuf,
-        /// The error of the system.
         source: std::io::Error,
-        /// The remedy.
         advice: &'static str,
     },
 
     /// The build cache is not used, because another user could put programs into it.
     #[error("the build cache `{}` is not used, because {reason}; {advice}", path.display())]
-    Untrusted {
-        /// The folder of the cache.
-        path: PathBuf,
-        /// The user or group that can write, and the folder, as words that follow "because".
-        reason: String,
-        /// The remedy.
-        advice: String,
-    },
+    Untrusted { path: PathBuf, reason: String, advice: String },
 
     /// The environment determines no folder for the cache.
     #[error(
@@ -213,21 +124,11 @@ pub enum ToolError {
     #[error(
         "FOVEATE_CACHE_SIZE is `{value}`; expected a size of at least 1M, such as 500M or 5G, or `none`"
     )]
-    InvalidCacheSize {
-        /// The value of the variable.
-        value: String,
-    },
+    InvalidCacheSize { value: String },
 
     /// A file or process could not be used.
     #[error("cannot {action} `{}`: {source}", path.display())]
-    Io {
-        /// The action that failed, such as "write".
-        action: &'static str,
-        /// The path of the file, folder or program.
-        path: PathBuf,
-        /// The error of the system.
-        source: std::io::Error,
-    },
+    Io { action: &'static str, path: PathBuf, source: std::io::Error },
 }
 
 const CACHE_ADVICE: &str = "set FOVEATE_CACHE to a writable folder, or to `off`";

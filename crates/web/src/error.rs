@@ -11,6 +11,7 @@ use thiserror::Error;
 /// A request of the page that is refused.
 #[derive(Debug, Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "fields of variants are named in the messages")]
 pub enum WebError {
     /// The configuration is refused.
     #[error(transparent)]
@@ -29,127 +30,58 @@ pub enum WebError {
     Sight(#[from] VisionError),
     /// The file of a network is too large.
     #[error("the file has {given} bytes; a page takes networks of at most {most}")]
-    NetworkFile {
-        /// The size of the file in bytes.
-        given: usize,
-        /// The largest size in bytes.
-        most: usize,
-    },
+    NetworkFile { given: usize, most: usize },
     /// The tensors of a network take too much memory.
     #[error(
         "the network keeps {} MB of tensors for a frame; a page has {} MB for them: take a smaller network, or a smaller input as in letterbox=320x320",
         needed / 1_000_000,
         most / 1_000_000
     )]
-    NetworkMemory {
-        /// The needed bytes.
-        needed: u64,
-        /// The largest number of bytes.
-        most: u64,
-    },
+    NetworkMemory { needed: u64, most: u64 },
     /// No camera has pixels of this depth.
     #[error("pixels of {bits} bits are refused; a camera has 1 to 16")]
-    PixelDepth {
-        /// The requested bits of a pixel.
-        bits: u32,
-    },
+    PixelDepth { bits: u32 },
     /// A setting of a network cannot be read.
     #[error("{what}: {problem}")]
-    Setting {
-        /// The name of the setting.
-        what: &'static str,
-        /// The message, with what would be right.
-        problem: String,
-    },
+    Setting { what: &'static str, problem: String },
     /// A pixel is larger than its bits allow.
     #[error("a pixel is larger than {bits} bits hold; give pixels as the camera has them")]
-    PixelTooLarge {
-        /// The bits of a pixel.
-        bits: u32,
-    },
+    PixelTooLarge { bits: u32 },
     /// There is no network yet.
     #[error("there is no network; give the file of one first")]
     NoNetwork,
     /// The bytes are not text.
     #[error("the {what} is not UTF-8 text, from byte {at} on; give it as UTF-8")]
-    NotUtf8 {
-        /// The name of what should have been text.
-        what: &'static str,
-        /// The position of the first byte that is not text.
-        at: usize,
-    },
+    NotUtf8 { what: &'static str, at: usize },
     /// The frame has no pixels, or more than a page can hold.
     #[error(
         "a frame of {width}x{height} pixels is refused; a page takes frames of 1 to {most} pixels"
     )]
-    FrameSize {
-        /// The requested width in pixels.
-        width: u32,
-        /// The requested height in pixels.
-        height: u32,
-        /// The largest number of pixels.
-        most: u32,
-    },
+    FrameSize { width: u32, height: u32, most: u32 },
     /// The bytes are no frame of the camera.
     #[error(
         "{given} bytes are not a frame; one of {width}x{height} pixels has {needed}, {each} per pixel"
     )]
-    FrameLength {
-        /// The number of bytes that came.
-        given: usize,
-        /// The number of bytes of a frame.
-        needed: usize,
-        /// The number of bytes of a pixel.
-        each: usize,
-        /// The width of the camera's frame in pixels.
-        width: u32,
-        /// The height of the camera's frame in pixels.
-        height: u32,
-    },
+    FrameLength { given: usize, needed: usize, each: usize, width: u32, height: u32 },
     /// The page has the largest number of cameras already.
     #[error("there are {most} cameras already, the most that a page can have; free one first")]
-    TooManyCameras {
-        /// The largest number of cameras.
-        most: usize,
-    },
+    TooManyCameras { most: usize },
     /// The camera was freed, or never existed.
     #[error("there is no camera number {handle}; it was freed, or never configured")]
-    NoSuchCamera {
-        /// The requested number.
-        handle: u32,
-    },
+    NoSuchCamera { handle: u32 },
     /// The camera does not have the feature.
     #[error("there is no feature number {index}; the camera has {count}, counted from 0")]
-    NoSuchFeature {
-        /// The requested number.
-        index: u32,
-        /// The number of features of the camera.
-        count: usize,
-    },
+    NoSuchFeature { index: u32, count: usize },
     /// The region is outside of the grid.
     #[error(
         "there is no region {x},{y}; the frame has {columns} x {rows} regions, counted from 0,0"
     )]
-    NoSuchRegion {
-        /// The requested column.
-        x: u32,
-        /// The requested row.
-        y: u32,
-        /// The number of columns of regions.
-        columns: u32,
-        /// The number of rows of regions.
-        rows: u32,
-    },
+    NoSuchRegion { x: u32, y: u32, columns: u32, rows: u32 },
     /// A number is not that of a class of regions.
     #[error(
         "region {region} has the class {code}; classes are 0 (normal), 1 (off), 2 (keen) and 3 (always)"
     )]
-    NoSuchClass {
-        /// The number of the region, row by row.
-        region: usize,
-        /// The number in place of a class.
-        code: u8,
-    },
+    NoSuchClass { region: usize, code: u8 },
     /// The camera has seen no frame yet.
     #[error("the camera has seen no frame yet; show it one first")]
     NoFrameYet,

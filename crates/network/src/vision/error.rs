@@ -6,6 +6,7 @@ use crate::error::NetworkError;
 /// The reason why a network cannot take frames, or why its outputs cannot be read.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
+#[expect(missing_docs, reason = "fields of variants are named in the messages")]
 pub enum VisionError {
     /// The network cannot be read.
     #[error(transparent)]
@@ -16,20 +17,10 @@ pub enum VisionError {
         plural(*found),
         plural(*channels)
     )]
-    ChannelCount {
-        /// The command-line option.
-        what: &'static str,
-        /// The number of values of the option.
-        found: usize,
-        /// The number of channels of the input.
-        channels: usize,
-    },
+    ChannelCount { what: &'static str, found: usize, channels: usize },
     /// The outputs do not have the format of the detector.
     #[error("{problem}")]
-    DetectorFormat {
-        /// The expected format and the outputs of the network, in words.
-        problem: String,
-    },
+    DetectorFormat { problem: String },
 }
 
 fn plural(count: usize) -> &'static str {
