@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The effect of disturbances on one design: its decisions and pixels on disturbed clips, against the ideal
-//! camera on the clips as they are.
+//! camera on the clips as they are, and where its flips come from.
 
 use std::path::PathBuf;
 
@@ -9,11 +9,12 @@ use foveate_footage::InputOptions;
 use foveate_playback::RunHooks;
 use serde::Serialize;
 
+use crate::error_source::SourceVariants;
 use crate::footage::ExplorationFootage;
 use crate::measure::CameraMeasurement;
 use crate::progress::measuring_progress;
 use crate::row::{bytes_per_frame, count_to_f64};
-use crate::{Disturbance, ExploreError};
+use crate::{Disturbance, ErrorSourceRow, ExploreError};
 
 /// The figures of a design on disturbed clips. Shares are 0..=1.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -34,8 +35,18 @@ pub struct DisturbanceRow {
     pub bytes_per_frame: f64,
 }
 
-/// Returns the figures of a camera without a disturbance and with each of the standard ones, over all frames of some
-/// clips, and the reasons why clips ended early. `task` is the ideal camera.
+/// A design on some clips.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DisturbedDesign {
+    /// The figures without a disturbance, and then with each of the standard ones.
+    pub rows: Vec<DisturbanceRow>,
+    /// The sources of the flips without a disturbance, which add up to these flips.
+    pub sources: Vec<ErrorSourceRow>,
+    /// The reasons why clips ended early.
+    pub problems: Vec<String>,
+}
+
+/// Measures a camera over all frames of some clips. `task` is the ideal camera.
 ///
 /// # Errors
 /// Fails if a clip cannot be read, if a configuration is not valid for its frames, or if `hooks` cancels.
@@ -44,31 +55,42 @@ pub fn disturb_design(
     inputs: &[PathBuf],
     input: &InputOptions,
     hooks: &dyn RunHooks,
-) -> Result<(Vec<DisturbanceRow>, Vec<String>), ExploreError> {
+) -> Result<DisturbedDesign, ExploreError> {
     let mut footage = ExplorationFootage::new((inputs, &[]), input, task, hooks)?;
-    let camera = config.validate_for_frames(footage.size.0, footage.size.1)?;
+    let (width, height) = footage.size;
+    let camera = config.validate_for_frames(width, height)?;
+    let variants = SourceVariants::new(&camera, &task.validate_for_frames(width, height)?);
     let all = std::iter::once(None).chain(Disturbance::STANDARD.map(Some));
-    let (mut rows, mut problems) = (Vec::new(), Vec::new());
+    let mut found = DisturbedDesign::default();
     for (done, disturbance) in all.enumerate() {
         footage = footage.disturbed(disturbance);
         let stage = |_| measuring_progress(done, 1 + Disturbance::STANDARD.len());
-        let mut sum = None;
+        // The sources are those of the clips as they are.
+        let count = if disturbance.is_none() { variants.cameras.len() } else { 1 };
+        let mut sums = vec![None; count];
         for (clip, subject) in footage.clips.clips().iter().enumerate() {
-            let cameras = std::slice::from_ref(&camera);
             let whole = std::slice::from_ref(&(0..u64::MAX));
+            let cameras = &variants.cameras[..count];
             let measured = footage.measure_parts(clip, cameras, whole, &stage)?;
-            let measured = measured.into_iter().flatten().next();
-            let problem = measured.as_ref().and_then(|measured| measured.problem.as_ref());
+            let measured: Vec<CameraMeasurement> = measured.into_iter().flatten().collect();
+            let problem = measured.first().and_then(|measured| measured.problem.as_ref());
             if disturbance.is_none() {
-                problems.extend(problem.map(|problem| format!("{}: {problem}", subject.name)));
+                let problem = problem.map(|problem| format!("{}: {problem}", subject.name));
+                found.problems.extend(problem);
             }
-            CameraMeasurement::merge(&mut sum, measured);
+            for (sum, measured) in sums.iter_mut().zip(measured) {
+                CameraMeasurement::merge(sum, Some(measured));
+            }
         }
-        let Some(CameraMeasurement { tally, .. }) = sum else { continue };
+        let sums: Vec<CameraMeasurement> = sums.into_iter().flatten().collect();
+        let Some(CameraMeasurement { tally, .. }) = sums.first() else { continue };
+        if disturbance.is_none() {
+            found.sources = variants.rows(&sums);
+        }
         let (figures, later) = (tally.figures(), tally.decisions().later);
         let share_of_all = count_to_f64(later.candidate) / count_to_f64(later.all.max(1));
         let false_alarms = if later.ideal == 0 { share_of_all } else { figures.false_alarms };
-        rows.push(DisturbanceRow {
+        found.rows.push(DisturbanceRow {
             disturbance: disturbance.map_or_else(|| "none".to_owned(), |own| own.to_string()),
             flips: figures.action_flips,
             missed: figures.missed,
@@ -77,5 +99,5 @@ pub fn disturb_design(
             bytes_per_frame: bytes_per_frame(&camera, &figures),
         });
     }
-    Ok((rows, problems))
+    Ok(found)
 }

@@ -14,6 +14,7 @@ mod cost;
 mod design_disturbance;
 mod disturbance;
 mod error;
+mod error_source;
 mod exploration;
 mod exploration_work;
 mod explore;
@@ -40,9 +41,10 @@ mod unit;
 
 pub use compare::{CameraComparison, compare};
 pub use cost::{DesignArea, Synthesizer};
-pub use design_disturbance::{DisturbanceRow, disturb_design};
+pub use design_disturbance::{DisturbanceRow, DisturbedDesign, disturb_design};
 pub use disturbance::Disturbance;
 pub use error::ExploreError;
+pub use error_source::ErrorSourceRow;
 pub use exploration::{ClipRow, DesignFront, Exploration};
 pub use explore::explore;
 pub use fit::{

@@ -3,7 +3,9 @@
 
 use std::sync::atomic::Ordering;
 
-use foveate_explore::{DisturbanceRow, ExploreError, disturb_design};
+use foveate_explore::{
+    DisturbanceRow, DisturbedDesign, ErrorSourceRow, ExploreError, disturb_design,
+};
 use foveate_footage::ImageRelation;
 use foveate_playback::PlaybackError;
 use foveate_stress::{CaseRow, RunDepth};
@@ -27,6 +29,7 @@ struct DisturbanceReport<'a> {
     design: String,
     task: String,
     rows: &'a [DisturbanceRow],
+    sources: &'a [ErrorSourceRow],
     problems: &'a [String],
 }
 
@@ -76,7 +79,7 @@ fn disturb(args: &StressArgs) -> Result<(), CliError> {
     let cameras = (&design.camera, &task.camera);
     let found = disturb_design(cameras, &args.inputs, &input, &terminal);
     terminal.progress.finish();
-    let (rows, problems) = match found {
+    let DisturbedDesign { rows, sources, problems } = match found {
         Err(ExploreError::Playback(PlaybackError::Interrupted)) => {
             return Err(CliError::Stopped { done: "some of the disturbances".to_owned() });
         }
@@ -84,10 +87,14 @@ fn disturb(args: &StressArgs) -> Result<(), CliError> {
     };
     if args.json {
         let (design, task) = (design.to_toml(), task.to_toml());
-        let (rows, problems) = (&*rows, &*problems);
-        output::print_json(&DisturbanceReport { format_version: 1, design, task, rows, problems })?;
+        let (rows, sources, problems) = (&*rows, &*sources, &*problems);
+        let format_version = 1;
+        let report = DisturbanceReport { format_version, design, task, rows, sources, problems };
+        output::print_json(&report)?;
     } else {
-        output::print_text(&disturbed_table(&rows, args.markdown))?;
+        let flips = rows.first().map_or(0.0, |row| row.flips);
+        let sources = source_table(&sources, flips, args.markdown);
+        output::print_text(&format!("{}\n{sources}", disturbed_table(&rows, args.markdown)))?;
     }
     match problems.is_empty() {
         true => Ok(()),
@@ -97,11 +104,10 @@ fn disturb(args: &StressArgs) -> Result<(), CliError> {
     }
 }
 
-/// Returns the rows as a table, aligned or in Markdown.
+/// Returns the figures with all disturbances as a table.
 fn disturbed_table(rows: &[DisturbanceRow], is_markdown: bool) -> String {
     let names = ["disturbance", "flips %", "missed %", "false alarms %", "PSNR dB", "bytes/frame"];
-    let cells = |row: &DisturbanceRow| {
-        let percent = |share: f64| format!("{:.2}", 100.0 * share);
+    let cells = rows.iter().map(|row| {
         [
             row.disturbance.clone(),
             percent(row.flips),
@@ -110,20 +116,56 @@ fn disturbed_table(rows: &[DisturbanceRow], is_markdown: bool) -> String {
             row.psnr_ideal.map_or_else(|| "same".to_owned(), |psnr| format!("{psnr:.1}")),
             format!("{:.0}", row.bytes_per_frame),
         ]
-    };
-    let line = |cells: [String; 6]| {
+    });
+    figure_table(names, cells, is_markdown)
+}
+
+/// Returns a table of the sources of the design's flips. The interaction is computed from the rounded figures, so
+/// that they add up.
+fn source_table(rows: &[ErrorSourceRow], flips: f64, is_markdown: bool) -> String {
+    let mut rest = rounded_percent(flips);
+    let cells = rows.iter().enumerate().map(|(number, row)| {
+        let flips = row.flips.map(rounded_percent);
+        let flips = flips.map(|flips| if number + 1 == rows.len() { rest } else { flips });
+        rest -= flips.unwrap_or(0.0);
+        let interval =
+            row.interval.map(|[least, most]| format!("{} to {}", percent(least), percent(most)));
+        [
+            row.source.to_owned(),
+            flips.map_or_else(|| "none".to_owned(), |flips| percent(flips / 100.0)),
+            row.reason.clone().or(interval).unwrap_or_default(),
+        ]
+    });
+    figure_table(["source", "flips %", "interval %"], cells, is_markdown)
+}
+
+/// Returns a share in percent, rounded to two digits after the point; never -0.
+fn rounded_percent(share: f64) -> f64 {
+    (1e4 * share).round() / 100.0 + 0.0
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.2}", rounded_percent(share))
+}
+
+/// Returns the rows as a table, aligned or in Markdown.
+fn figure_table<const N: usize>(
+    names: [&str; N],
+    rows: impl Iterator<Item = [String; N]>,
+    is_markdown: bool,
+) -> String {
+    let line = |cells: [String; N]| {
         if is_markdown {
             return format!("| {} |\n", cells.join(" | "));
         }
-        let [first, rest @ ..] = cells;
-        let rest: String = rest.iter().map(|cell| format!("{cell:>16}")).collect();
-        format!("{first:<14}{rest}\n")
+        let rest: String = cells[1..].iter().map(|cell| format!("  {cell:>14}")).collect();
+        format!("{:<14}{rest}\n", cells[0])
     };
     let mut text = line(names.map(str::to_owned));
     if is_markdown {
-        text += &format!("|{}\n", " --- |".repeat(names.len()));
+        text += &format!("|{}\n", " --- |".repeat(N));
     }
-    text + &rows.iter().map(|row| line(cells(row))).collect::<String>()
+    text + &rows.map(line).collect::<String>()
 }
 
 fn verdict(row: &CaseRow) -> &'static str {

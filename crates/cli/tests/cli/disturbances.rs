@@ -48,6 +48,53 @@ fn a_design_is_compared_with_the_ideal_of_the_clip_as_it_is() {
     assert_eq!(run_in(dir.path(), &["stress", "scene:street", "--short"]).code, 2);
 }
 
+/// The printed figures add up to the printed flips, and those of JSON to the flips. Here the sum of the rounded
+/// shares is 0.01 % less than the rounded flips.
+#[test]
+fn the_sources_of_flips_add_up() {
+    let dir = tempfile::tempdir().unwrap();
+    let frame = "frame={width=96,height=64,pixel_bits=5}";
+    let clip = ["scene:street", "--frames", "7", "--set", frame, "--quiet"];
+    let design = ["stress", "--set", "spatial.0.level=11"];
+    let run = |more: &[&str]| run_successfully(dir.path(), &[&design[..], &clip, more].concat());
+    let report: Value = serde_json::from_str(&run(&["--json"])).unwrap();
+    let sources = report["sources"].as_array().unwrap();
+    let names: Vec<&str> = sources.iter().map(|row| row["source"].as_str().unwrap()).collect();
+    let expected =
+        ["windows", "filter", "bits", "thresholds", "fraction bits", "reference", "interaction"];
+    assert_eq!(names, expected);
+    let shares: Vec<f64> = sources.iter().map(|row| row["flips"].as_f64().unwrap()).collect();
+    let flips = report["rows"][0]["flips"].as_f64().unwrap();
+    assert!((shares.iter().sum::<f64>() - flips).abs() < 1e-12 && flips > 0.0, "{report}");
+    // Preset paper has isolated windows and no mean, and the filter and reference are the task's.
+    let is_other: Vec<bool> = shares[..6].iter().map(|share| *share != 0.0).collect();
+    assert_eq!(is_other, [true, false, true, true, false, false], "{report}");
+    for (more, separator) in [(&[][..], None), (&["--markdown"][..], Some("|"))] {
+        let text = run(more);
+        let printed: Vec<Vec<&str>> = text
+            .lines()
+            .map(|line| match separator {
+                Some(separator) => line.split(separator).map(str::trim).skip(1).collect(),
+                None => line.split("  ").map(str::trim).filter(|cell| !cell.is_empty()).collect(),
+            })
+            .collect();
+        let cells = |name: &str| printed.iter().find(|cells| cells.first() == Some(&name)).unwrap();
+        assert_eq!(cells("source")[1..3], ["flips %", "interval %"], "{text}");
+        let hundredths = |name: &str| {
+            let percent: f64 = cells(name)[1].parse().unwrap();
+            (100.0 * percent).round()
+        };
+        let sum: f64 = expected.iter().map(|name| hundredths(name)).sum();
+        assert_eq!(sum, hundredths("none"), "{text}");
+        assert_eq!(cells("filter")[1..3], ["0.00", "0.00 to 0.00"], "{text}");
+    }
+    let other = run(&["--set", "region.size=16"]);
+    assert!(
+        other.contains("none  the thresholds of the task are for regions of 8x8 pixels"),
+        "{other}"
+    );
+}
+
 #[test]
 fn an_exploration_of_disturbed_clips_measures_them_anew() {
     let dir = tempfile::tempdir().unwrap();

@@ -398,7 +398,7 @@ fn own_thresholds(features: &[SpatialConfig], from: u32, to: u32) -> Vec<Vec<Spa
 
 /// Returns the fraction bits with which the mean of a region is exact, or as exact as it can be:
 /// ceil(log2 n).
-fn exact_fraction_bits(side: u32) -> u32 {
+pub(crate) fn exact_fraction_bits(side: u32) -> u32 {
     (side * side).next_power_of_two().ilog2()
 }
 

@@ -12,7 +12,7 @@ pub(super) const MIN_REGIONS: f64 = 49.0;
 
 /// The areas of a camera's decisions, in groups of consecutive frames.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct DecisionGroups(pub(super) Vec<DecisionAreas>);
+pub(crate) struct DecisionGroups(pub(crate) Vec<DecisionAreas>);
 
 /// A rate and what it is taken of.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,7 +35,7 @@ pub(super) struct DecisionRates {
 
 impl DecisionGroups {
     /// Sums the decisions of single frames of all clips.
-    pub(super) fn from_frames(frames: &[DecisionAreas]) -> Self {
+    pub(crate) fn from_frames(frames: &[DecisionAreas]) -> Self {
         let mut groups = vec![DecisionAreas::default(); group_count(frames.len())];
         for (number, frame) in frames.iter().enumerate() {
             groups[frame_group(number, frames.len())].add(frame);
@@ -67,7 +67,8 @@ impl DecisionGroups {
         }
     }
 
-    fn total(&self, left_out: Option<usize>) -> DecisionAreas {
+    /// Returns the sum of all groups, without one that is left out.
+    pub(crate) fn total(&self, left_out: Option<usize>) -> DecisionAreas {
         let mut total = DecisionAreas::default();
         let kept = self.0.iter().enumerate().filter(|(group, _)| Some(*group) != left_out);
         kept.for_each(|(_, group)| total.add(group));

@@ -50,6 +50,10 @@ mod threshold_run;
 mod threshold_scaling;
 mod threshold_search;
 
+pub(crate) use camera_search::exact_fraction_bits;
+pub(crate) use decision_rates::DecisionGroups;
+pub(crate) use sampling_error::group_margin;
+
 use std::ops::Range;
 use std::path::PathBuf;
 

@@ -25,7 +25,7 @@ pub(super) fn frame_group(number: usize, frames: usize) -> usize {
 
 /// Returns by how much a figure over as many other frames may be worse, from its values without each
 /// of the groups; 0 if there are fewer than two groups.
-pub(super) fn group_margin(groups: usize, without: impl Fn(usize) -> f64) -> f64 {
+pub(crate) fn group_margin(groups: usize, without: impl Fn(usize) -> f64) -> f64 {
     if groups < 2 {
         return 0.0;
     }

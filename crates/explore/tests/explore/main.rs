@@ -2,6 +2,7 @@
 //! Explorations and fits over scenes.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod error_source;
 mod explore;
 mod fit;
 mod link;
