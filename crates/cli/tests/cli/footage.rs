@@ -74,6 +74,27 @@ fn what_is_no_video_is_not_to_be_played() {
 }
 
 #[test]
+fn a_file_of_several_videos_is_told_of_and_one_is_chosen() {
+    if !require_tools(&[Tool::Ffmpeg, Tool::Ffprobe]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let source = |size: &str| format!("-f lavfi -i testsrc2=size={size}:rate=10:duration=0.3");
+    let sources = [source("64x48"), source("32x24")].join(" ");
+    ffmpeg(dir.path(), &format!("{sources} -map 0 -map 1 -c:v ffv1 two.mkv"));
+    for (choice, size) in [(&[][..], "64x48"), (&["--video-stream", "1"], "32x24")] {
+        let said = messages(dir.path(), &[&["simulate", "two.mkv"], choice].concat());
+        assert_eq!(said.contains("warning: `two.mkv` has 2 video streams"), choice.is_empty());
+        let summary = fs::read(dir.path().join("out/summary.json")).unwrap();
+        let summary: serde_json::Value = serde_json::from_slice(&summary).unwrap();
+        let found = format!("{}x{}", summary["width"], summary["height"]);
+        assert_eq!((found.as_str(), &summary["complete"]), (size, &true.into()), "{said}");
+    }
+    let other = ["simulate", "two.mkv", "--video-stream", "2", "-o", "no"];
+    expect_failure(dir.path(), 2, &other, &["no video stream 2"]);
+}
+
+#[test]
 fn no_frames_at_all_are_not_asked_for() {
     let dir = tempfile::tempdir().unwrap();
     for option in ["--frames", "--max-frames"] {

@@ -43,6 +43,10 @@ fn every_option_writes_its_files_and_no_others() {
     for name in ["overlay/000003.png", "heatmap_edge/000003.png", "heatmap_temporal/000000.png"] {
         assert!(has(dir.path(), name), "{name}");
     }
+    let overlay = || fs::read(dir.path().join("out/overlay/000003.png")).unwrap();
+    let sent = overlay();
+    run_successfully(dir.path(), &simulate(&["--overlay-outlines", "--force"]));
+    assert_ne!(overlay(), sent);
 }
 
 #[test]

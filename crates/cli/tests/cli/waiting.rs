@@ -279,6 +279,46 @@ fn a_camera_in_the_network_that_never_answers_is_left() {
     }
 }
 
+/// These stubs never end by themselves. Two of them say that a wait is over, and the last one nothing.
+#[test]
+fn a_camera_in_the_network_that_is_silent_is_not_waited_for() {
+    if !require_tools(&[Tool::Ffmpeg]) {
+        return;
+    }
+    let lost = "Connection to tcp://10.9.9.9:554 failed: Connection timed out";
+    let runs = [
+        (
+            "echo '[error] rtsp://cam/live: Connection timed out' >&2".to_owned(),
+            0,
+            ["it has sent nothing for 10 s", "it sends no pictures"],
+        ),
+        (format!("echo '[tcp @ 0x1] [error] {lost}' >&2"), 0, [lost, "can be reached from here"]),
+        (String::new(), 15, ["it has sent nothing for 15 s", "it sends no pictures"]),
+    ];
+    let start = Instant::now();
+    let runs = runs.map(|(script, seconds, parts)| {
+        let stub = FfmpegStub::new(&format!("{script}\nexec sleep 60"));
+        let child = stub.start(&["simulate", "rtsp://cam/live", "-o", "out"]);
+        (stub, child, Duration::from_secs(seconds), parts)
+    });
+    for (stub, mut child, silence, parts) in runs {
+        let limit = silence + 2 * END_LIMIT;
+        while child.try_wait().unwrap().is_none() {
+            if start.elapsed() > limit {
+                kill(child.id(), "TERM");
+                panic!("it still waits after {limit:?}: {parts:?}");
+            }
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        assert!(start.elapsed() >= silence, "{:?}", start.elapsed());
+        let output = child.wait_with_output().unwrap();
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(parts.iter().all(|part| said.contains(part)), "{parts:?}: {said}");
+        assert!(stub.process_numbers().iter().all(|pid| has_ended(pid)), "an ffmpeg remains");
+    }
+}
+
 /// This encoder takes every frame and never ends. The first Ctrl-C gives it time, the second none.
 #[test]
 fn a_second_ctrl_c_ends_everything_at_once() {

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use foveate_camera::CameraConfig;
-use foveate_footage::{CropRect, InputOptions, source_from_memory};
+use foveate_footage::{CropRect, InputOptions, Orientation, source_from_memory};
 use foveate_frame::{ByteFrame, Rect};
 use foveate_playback::testing::RecordingHooks;
 use foveate_playback::{
@@ -87,6 +87,47 @@ fn objects_are_found_by_the_numbers_of_frames() {
     let found: Vec<_> = found.map(|rects| rects.map(|rects| rects.len())).collect();
     assert_eq!(found, [None, Some(1), None]);
     assert!(clips.check_entries(0, true).is_ok() && clips.check_entries(0, false).is_err());
+}
+
+/// Returns the headers of a grey JPEG of 8x8 pixels, which is turned by its EXIF data.
+fn turned_jpeg() -> Vec<u8> {
+    // A directory of one entry, the orientation 6.
+    let exif = b"Exif\0\0II*\0\x08\0\0\0\x01\0\x12\x01\x03\0\x01\0\0\0\x06\0\0\0\0\0\0\0";
+    let length = u16::try_from(exif.len() + 2).unwrap().to_be_bytes();
+    let frame = b"\xFF\xC0\0\x0B\x08\0\x08\0\x08\x01\x01\x11\0";
+    let scan = b"\xFF\xDA\0\x08\x01\x01\0\0\x3F\0";
+    [b"\xFF\xD8\xFF\xE1", &length[..], exif, frame, scan].concat()
+}
+
+#[test]
+fn boxes_that_may_be_wrong_are_told_of_before_the_frames_are_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, bytes: &[u8]| {
+        let path = folder.path().join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, bytes).unwrap();
+    };
+    let warnings = |boxes: &str, orientation| {
+        let options = InputOptions { orientation, ..InputOptions::default() };
+        let [clip, boxes] = ["clip", boxes].map(|name| folder.path().join(name));
+        RunClips::new(&[clip], &[boxes], &camera(), &options)
+            .map(|_| options.warnings.take())
+            .map_err(|error| error.to_string())
+    };
+    write("clip/1.jpg", &turned_jpeg());
+    write("clip/2.jpg", &turned_jpeg());
+    write("yolo/1.txt", b"0 0.5 0.5 1 1\n");
+    let said = warnings("yolo", Orientation::Stored).unwrap();
+    let [turned] = &said[..] else { panic!("{said:?}") };
+    assert!(turned.contains("2 of the first 2 images") && turned.contains("1.jpg"), "{turned}");
+    assert!(warnings("yolo", Orientation::Upright).unwrap().is_empty());
+    write("gt.txt", b"1,1,1,1,5,5,0,1,1\n2,1,1,1,5,5,1,1,1\n");
+    let said = warnings("gt.txt", Orientation::Upright).unwrap();
+    let [left_out] = &said[..] else { panic!("{said:?}") };
+    assert!(left_out.contains("1 of 2 boxes") && left_out.contains("gt.txt"), "{left_out}");
+    write("yolo/2.txt", b"0 0.5 0.5 1\n");
+    let problem = warnings("yolo", Orientation::Upright).unwrap_err();
+    assert!(problem.contains("2.txt") && problem.contains("line 1"), "{problem}");
 }
 
 /// Boxes are those of whole frames, also if the frames of an open clip are cropped.

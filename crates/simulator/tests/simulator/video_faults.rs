@@ -93,6 +93,39 @@ fn intact_frames_are_complete_whatever_else_is_damaged() {
     }
 }
 
+/// Decoders work ahead, so that ffmpeg reports these losses before it shows the first frame. Decoding
+/// begins with an IDR picture, so nothing was cut off before it.
+#[test]
+fn a_loss_soon_after_the_first_frame_is_damage() {
+    if !tools() {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let whole = dir.path().join("whole.mp4");
+    let source = ["-f", "lavfi", "-i", "testsrc2=size=80x60:rate=25:duration=6"];
+    let regular = "keyint=25:min-keyint=25:scenecut=0:bframes=3:b-adapt=0:b-pyramid=strict:ref=2";
+    let h264 = ["-pix_fmt", "yuv420p", "-c:v", "libx264", "-x264-params", regular];
+    ffmpeg(&[&source[..], &h264, &[whole.to_str().unwrap()]].concat());
+    let late = FrameSelection { start_us: Some(4_000_000), ..FrameSelection::default() };
+    // The P picture between two groups of B pictures stays, and removes one that is not there. The
+    // second clip begins without an IDR picture, and its first frame is that of the first second.
+    for (name, first, selection, frames_left) in
+        [("begin.mp4", 0, FrameSelection::default(), 143), ("late.mp4", 75, late, 25)]
+    {
+        let lost = [1, 2, 3, 4, 6, 7, 8].map(|packet| first + packet).into_iter();
+        let lost = lost.chain((first > 0).then_some(0)).map(|packet| format!("eq(n\\,{packet})"));
+        let noise = format!("noise=amount=0:drop={}", lost.collect::<Vec<_>>().join("+"));
+        let path = dir.path().join(name);
+        let [from, to] = [&whole, &path].map(|path| path.to_str().unwrap());
+        ffmpeg(&["-i", from, "-c", "copy", "-copyinkf", "-bsf:v", &noise, to]);
+        let options = InputOptions { selection, ..InputOptions::default() };
+        let (seen, problem) = frames(&path, 8, &options);
+        assert_eq!(seen.len(), frames_left, "{name}");
+        let problem = problem.unwrap_or_default();
+        assert!(problem.contains("mmco: unref short failure"), "{name}: {problem}");
+    }
+}
+
 #[test]
 fn a_change_of_size_ends_the_clip_unless_frames_are_scaled() {
     if !tools() {

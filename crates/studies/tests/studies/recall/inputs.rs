@@ -19,11 +19,15 @@ fn boxes_are_cropped_and_scaled_with_the_frames() {
     fs::write(&gt, mot_rows(2, 24) + "2,9,5,25,24,16,1,1,1\n").unwrap();
     let crop = Some(CropRect { size: (64, 32), origin: (24, 24) });
     let input = InputOptions { crop, resize: Some((32, 16)), ..InputOptions::default() };
-    let report = recall(&[clip], &[gt], &input, &out).unwrap();
+    let report = recall(from_ref(&clip), from_ref(&gt), &input, &out).unwrap();
     check_known(&report, "clip", &out);
-    assert!(
-        fs::read_to_string(out.join("recall.csv")).unwrap().contains("(MOT); 1 lie mostly outside")
-    );
+    let notes = || fs::read_to_string(out.join("recall.csv")).unwrap();
+    assert!(notes().contains("(MOT); 1 lie mostly outside"));
+    assert!(!notes().contains("behind the last one"));
+    // The clip has four frames.
+    fs::write(&gt, mot_rows(2, 24) + "5,9,25,25,24,16,1,1,1\n7,9,25,25,24,16,1,1,1\n").unwrap();
+    check_known(&recall(&[clip], &[gt], &input, &out).unwrap(), "clip", &out);
+    assert!(notes().contains("; 2 belong to frames behind the last one"), "{}", notes());
 }
 
 #[test]
@@ -139,5 +143,8 @@ fn boxes_that_do_not_fit_are_refused_and_leave_nothing() {
         message("1,1,1,1,8,8,1,1,1\n", &given)
             .contains("`clip` has no object to count after its first frame")
     );
-    assert!(message("2,1,1,1,8,8,0,1,1\n", &given).contains("no object"));
+    let said = message("2,1,1,1,8,8,0,1,1\n", &given);
+    for part in ["no object", "1 of 1 boxes", "gt.txt", "1 not to be counted"] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
 }
