@@ -279,7 +279,7 @@ fn a_camera_in_the_network_that_never_answers_is_left() {
     }
 }
 
-/// These stubs never end by themselves. Two of them say that a wait is over, and the last one nothing.
+/// These stubs never end by themselves. Two of them say that a wait is over, one nothing, and one something else.
 #[test]
 fn a_camera_in_the_network_that_is_silent_is_not_waited_for() {
     if !require_tools(&[Tool::Ffmpeg]) {
@@ -294,6 +294,12 @@ fn a_camera_in_the_network_that_is_silent_is_not_waited_for() {
         ),
         (format!("echo '[tcp @ 0x1] [error] {lost}' >&2"), 0, [lost, "can be reached from here"]),
         (String::new(), 15, ["it has sent nothing for 15 s", "it sends no pictures"]),
+        // What ffmpeg says meanwhile is no picture.
+        (
+            "(for _ in 1 2 3 4 5 6; do sleep 4; echo '[info] Input #0' >&2; done) &".to_owned(),
+            15,
+            ["it has sent nothing for 15 s", "it sends no pictures"],
+        ),
     ];
     let start = Instant::now();
     let runs = runs.map(|(script, seconds, parts)| {

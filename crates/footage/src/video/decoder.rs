@@ -3,7 +3,7 @@
 //! every frame and returns its pixels.
 
 use std::io::{self, Read};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use foveate_toolchain::{Interrupt, Invocation, LocatedTool, ProgramReader, ToolError};
 
@@ -99,7 +99,7 @@ pub(super) struct VideoDecoder {
     log: FfmpegLog,
     /// A frame that was announced but not taken.
     announced_frame: Option<AnnouncedFrame>,
-    /// The longest time without a line.
+    /// The longest time without a picture.
     silence_limit: Option<Duration>,
 }
 
@@ -131,7 +131,8 @@ impl VideoDecoder {
         if let Some(shown) = self.announced_frame.take() {
             return Ok(Some(shown));
         }
-        while let Some(line) = self.next_line()? {
+        let begin = Instant::now();
+        while let Some(line) = self.next_line(begin)? {
             match self.log.read_line(&line) {
                 Some(LogEntry::Frame(shown)) => return Ok(Some(shown)),
                 Some(LogEntry::UntakableFrame(problem)) => {
@@ -146,11 +147,11 @@ impl VideoDecoder {
         Ok(None)
     }
 
-    /// Returns the next line of ffmpeg. A camera of the network that is silent ends the video, for which ffmpeg
-    /// itself may take a minute.
-    fn next_line(&mut self) -> Result<Option<String>, ToolError> {
+    /// Returns the next line of ffmpeg. A camera of the network that has sent no picture since `begin` for the longest
+    /// time ends the video, for which ffmpeg itself may take a minute.
+    fn next_line(&mut self, begin: Instant) -> Result<Option<String>, ToolError> {
         let Some(limit) = self.silence_limit else { return self.stream.next_line() };
-        match self.stream.next_line_within(limit) {
+        match self.stream.next_line_within(limit.saturating_sub(begin.elapsed())) {
             Ok(Some(line)) if line.ends_with("timed out") => {
                 self.stream.stop();
                 // A camera that is not there has not answered.
@@ -161,9 +162,9 @@ impl VideoDecoder {
                 }
                 Ok(None)
             }
-            Err(error @ ToolError::Silent { .. }) => {
+            Err(ToolError::Silent { .. }) => {
                 self.stream.stop();
-                self.log.refuse(error.to_string());
+                self.log.refuse(ToolError::Silent { limit }.to_string());
                 Ok(None)
             }
             line => line,
