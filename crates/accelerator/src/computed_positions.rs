@@ -42,7 +42,6 @@ impl<'a> ComputedPositions<'a> {
         Self { layer, is_computed }
     }
 
-    /// Returns the number of computed positions in these rows.
     pub(crate) fn position_count(&self, rows: Range<u64>) -> u64 {
         rows.map(|row| self.count_in_row(row)).sum()
     }

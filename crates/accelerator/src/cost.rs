@@ -82,7 +82,6 @@ impl EnergyCost {
     }
 }
 
-/// The counts of a layer.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct LayerCounts {
     pub(crate) array_cycles: u64,

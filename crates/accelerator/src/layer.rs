@@ -62,7 +62,6 @@ impl KernelWindow {
         Self { kernel, stride, dilation: 1, padding_before: before }
     }
 
-    /// Returns the inputs, of `inputs` in all, that an output depends on.
     pub(crate) fn taps(self, output: u64, inputs: u64) -> impl Iterator<Item = u64> {
         let first = output * self.stride;
         (0..self.kernel)
@@ -185,7 +184,6 @@ impl Layer {
         })
     }
 
-    /// Returns the number of inputs of one sum.
     pub(crate) fn inputs_per_sum(&self, products: &ChannelGroups) -> u64 {
         products.inputs * self.windows[0].kernel * self.windows[1].kernel
     }

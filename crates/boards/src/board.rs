@@ -48,7 +48,6 @@ pub struct Board {
     pub leds: BoardLeds,
     /// The pins of the sensor; `None` for a pattern.
     pub pins: Option<SensorPins>,
-    /// The default design.
     design: DefaultDesign,
     /// The text of its file.
     #[serde(skip)]

@@ -11,7 +11,6 @@ use crate::text::source_file;
 /// The I/O standard of pins for which a board names none.
 const DEFAULT_STANDARD: &str = "LVCMOS33";
 
-/// Returns the name of the file with the pins.
 pub(crate) fn pin_file_name(family: DeviceFamily) -> &'static str {
     match family {
         DeviceFamily::Ice40 => "board.pcf",

@@ -32,7 +32,6 @@ pub(crate) fn pattern_pixel(x: u32, y: u32, frame: u32) -> u8 {
     u8::try_from(value).unwrap_or(u8::MAX)
 }
 
-/// Returns a frame of the pattern.
 pub(crate) fn pattern_frame(width: u32, height: u32, frame: u32) -> ByteFrame {
     let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     let pixels = places.map(|(x, y)| pattern_pixel(x, y, frame)).collect();
@@ -40,7 +39,6 @@ pub(crate) fn pattern_frame(width: u32, height: u32, frame: u32) -> ByteFrame {
         .unwrap_or_else(|error| unreachable!("a frame of the pattern is one: {error}"))
 }
 
-/// Returns the layout of the packets of a design on a board.
 pub(crate) fn packet_layout(design: &Design) -> PacketLayout {
     PacketLayout::new(design, false, 1)
         .unwrap_or_else(|error| unreachable!("the sizes of a frame fit: {error}"))

@@ -11,7 +11,6 @@ pub(crate) fn interval_text(intervals: &ConfidenceIntervals) -> String {
     })
 }
 
-/// Returns a number of grey levels with its unit.
 pub(crate) fn grey_levels(levels: f64) -> String {
     #[allow(clippy::float_cmp, reason = "exactly one is singular")]
     let unit = if levels == 1.0 { "grey level" } else { "grey levels" };

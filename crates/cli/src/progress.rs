@@ -70,7 +70,6 @@ impl Progress {
         self.bar.finish_and_clear();
     }
 
-    /// Reports progress.
     pub(crate) fn report(&self, progress: &RunProgress<'_>) {
         let label = printable(&progress.label);
         let progress = RunProgress { label, ..*progress };
@@ -114,7 +113,6 @@ impl Progress {
     }
 }
 
-/// Returns the columns of the terminal that shows the progress.
 fn terminal_columns() -> usize {
     let size = terminal_size::terminal_size_of(std::io::stderr());
     size.map_or(DEFAULT_COLUMNS, |(Width(columns), _)| columns.into())

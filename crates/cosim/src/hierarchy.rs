@@ -34,7 +34,6 @@ struct VerilogModule {
     instantiated_names: BTreeSet<String>,
 }
 
-/// Returns true if a file declares the module.
 pub(crate) fn declares(sources: &[SourceFile], module: &str) -> bool {
     sources
         .iter()
@@ -75,7 +74,6 @@ pub fn unsimulated_modules(sources: &[SourceFile], tops: &[&str]) -> Vec<Unsimul
     files.iter().filter_map(unreached).collect()
 }
 
-/// Returns the modules that a text declares.
 fn declared_modules(text: &str) -> Vec<VerilogModule> {
     let tokens = tokens(text);
     let (mut modules, mut under_way) = (Vec::new(), None);
@@ -95,7 +93,6 @@ fn declared_modules(text: &str) -> Vec<VerilogModule> {
     modules
 }
 
-/// Returns true if the tokens begin with `name #(`, `name instance (` or `name instance [`.
 fn is_instance(tokens: &[String]) -> bool {
     let token = |index: usize| tokens.get(index).map_or("", String::as_str);
     let is_name = |text: &str| text.starts_with(|c: char| c.is_alphabetic() || c == '_');

@@ -15,9 +15,7 @@ use foveate_toolchain::{
 };
 use serde::{Deserialize, Serialize};
 
-/// The name of the file with the netlist.
 const NETLIST_FILE: &str = "netlist/netlist.v";
-/// The name of the file with the models of the cells.
 const MODELS_FILE: &str = "netlist/cells.v";
 
 /// A synthesized design.

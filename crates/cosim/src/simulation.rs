@@ -14,7 +14,6 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// The name of the file with waves.
 pub(crate) const WAVES_FILE: &str = "waves.fst";
 
 /// The options with which Verilator starts registers at random values. A register without a reset

@@ -120,7 +120,6 @@ fn changed_values(
     layout.fields().iter().map(value).collect()
 }
 
-/// Returns a hexadecimal number without leading zeros.
 fn without_leading_zeros(hex: &str) -> String {
     let digits = hex.trim_start_matches('0');
     if digits.is_empty() { "0".to_owned() } else { digits.to_owned() }

@@ -3,12 +3,10 @@
 
 use foveate_design::{DenoiseFilter, FeatureKind};
 
-/// Returns the name that the parameters of a feature begin with.
 pub(crate) fn parameter_prefix(kind: FeatureKind) -> String {
     kind.name().to_uppercase()
 }
 
-/// Returns the value of the parameter `FILTER`.
 pub(crate) fn filter_number(filter: DenoiseFilter) -> u32 {
     match filter {
         DenoiseFilter::None => 0,

@@ -15,7 +15,6 @@ pub(crate) trait Emitter {
     fn readme(&self, prefix: &Prefix) -> String;
 }
 
-/// Returns the emitter of a design.
 pub(crate) fn emitter(design: &Design) -> Box<dyn Emitter + '_> {
     match design.hardware() {
         Hardware::Pipelined(own) => Box::new(design.with_hardware(own)),

@@ -13,7 +13,6 @@ use foveate_design::Design;
 const MAX_CHARACTERS: usize = 32;
 /// The word that requests the prefix made from the fingerprint.
 const AUTO_WORD: &str = "auto";
-/// The number of digits of the fingerprint in the prefix made from it.
 const FINGERPRINT_DIGITS: usize = 8;
 /// The keywords of Verilog and SystemVerilog that are likely to be tried as a prefix.
 const KEYWORDS: &[&str] = &[

@@ -298,7 +298,6 @@ fn sum_widths(design: RasterDesign<'_>, feature: &SpatialFeature) -> Vec<(&'stat
     }
 }
 
-/// Returns the widths of the mean that a feature uses.
 fn mean_widths(feature: &SpatialFeature) -> Vec<(&'static str, u32)> {
     let mean = feature.mean().expect("the features of the second pass have a mean");
     vec![

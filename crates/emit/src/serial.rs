@@ -253,7 +253,6 @@ fn array_parameters(design: SerialDesign<'_>) -> Vec<(String, String)> {
     list
 }
 
-/// Returns the parameters of the search of `flow`.
 fn flow_parameters(search: &FlowSearch) -> [(&'static str, String); 5] {
     let bits = search.factor_bits;
     // The first factor is in the lowest bits.
@@ -344,7 +343,6 @@ fn minima(design: SerialDesign<'_>, signal: ThresholdSignal) -> Vec<String> {
     list
 }
 
-/// Returns a value of `bits` bits, extended with zeros to `width` bits.
 fn zero_extended(value: &str, bits: u32, width: u32) -> String {
     match width - bits {
         0 => value.to_owned(),

@@ -6,7 +6,6 @@ use crate::prefix::module_path;
 use askama::Template;
 use foveate_design::{Port, PortDirection};
 
-/// Returns the file of a module.
 pub(crate) fn module_file(module: &str, contents: String) -> SourceFile {
     SourceFile { path: module_path(module), contents }
 }

@@ -18,7 +18,6 @@ pub(crate) struct NetActivity {
     pub(crate) energies: Vec<Vec<Vec<[f64; 2]>>>,
 }
 
-/// A counter of activity.
 pub(crate) struct ActivityCounter<'a> {
     netlist: &'a SimulatedNetlist<'a>,
     clocks: u64,
@@ -27,7 +26,6 @@ pub(crate) struct ActivityCounter<'a> {
     pins: Vec<CountedPin<'a>>,
     /// The numbers of the pins at each net; a pin of a clock is at all nets of its cell.
     pins_of_net: Vec<Vec<usize>>,
-    /// The numbers of the pins of clocks.
     clock_pins: Vec<usize>,
     /// True if the conditions at clocks are those of the last clock.
     knows_conditions: bool,

@@ -16,7 +16,6 @@ pub(crate) struct SimulatedNetlist<'a> {
     pub(crate) nets: usize,
     /// The combinational gates, each behind those that drive its inputs.
     pub(crate) order: Vec<usize>,
-    /// The flip-flops.
     pub(crate) flip_flops: Vec<usize>,
     /// The flip-flops that can be cleared or set without a clock.
     pub(crate) forced_flip_flops: Vec<usize>,
@@ -28,7 +27,6 @@ pub(crate) struct SimulatedNetlist<'a> {
     pub(crate) outputs: &'a BTreeMap<String, Vec<usize>>,
 }
 
-/// A gate of a netlist.
 #[derive(Debug)]
 pub(crate) struct SimulatedGate<'a> {
     pub(crate) model: &'a CellModel,

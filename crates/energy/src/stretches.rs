@@ -20,7 +20,6 @@ pub(crate) const FRAMES_BEFORE: u64 = 2;
 /// last frame end with the first of them.
 pub(crate) const FRAMES_BEHIND: u64 = 2;
 
-/// A stretch of a clip.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct ClipStretch {
     pub(crate) name: &'static str,
@@ -80,7 +79,6 @@ impl ActivityClip<'_> {
         &self.clips.clips()[self.clip].name
     }
 
-    /// Plays the frames before frame `end`.
     fn play(
         &self,
         end: u64,
@@ -135,7 +133,6 @@ impl ActivityClip<'_> {
         Ok((sent.len() as u64, stretches))
     }
 
-    /// Reads the frames of all stretches, with `pixel_bits` bits per pixel.
     pub(crate) fn read_stretches(
         &self,
         stretches: &[ClipStretch],

@@ -54,7 +54,6 @@ pub(crate) fn unit_activity(
     Ok(counter.finish())
 }
 
-/// Returns the sequences of a recording.
 fn sequences(recording: &Recording, frames: &Range<u64>) -> Vec<UnitSequence> {
     let place = |clock: u64| usize::try_from(clock).expect("the records are in memory");
     let spans = recording.spans();
@@ -81,7 +80,6 @@ struct PortBit {
     net: usize,
 }
 
-/// Returns the bits of the ports of a record.
 fn port_bits(
     fields: &[RecordField],
     ports: &BTreeMap<String, Vec<usize>>,

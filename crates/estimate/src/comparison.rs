@@ -185,7 +185,6 @@ fn candidate_row(candidate: &ComparedDesign) -> Vec<String> {
         .collect()
 }
 
-/// Returns the name and the value of the largest share.
 fn largest_share(share: &DeviceShare) -> String {
     let shares = [
         ("LUT", share.lut),

@@ -16,7 +16,6 @@ use crate::error::EstimateError;
 /// The name of a netlist in messages.
 pub(crate) const NETLIST: &str = "netlist.json";
 
-/// The modules of a netlist by name.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct AreaNetlist(BTreeMap<String, AreaModule>);
 

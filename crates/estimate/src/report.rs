@@ -205,7 +205,6 @@ pub(crate) mod tests {
         example_of_units(regions, UnitCount { name: "RPU".into(), count: regions }, None)
     }
 
-    /// Returns a report of a serial array of `lanes` lanes.
     pub(crate) fn serial_example(regions: u64, lanes: u64) -> AreaReport {
         example_of_units(regions, UnitCount { name: "lane".into(), count: lanes }, None)
     }

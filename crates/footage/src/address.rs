@@ -123,7 +123,6 @@ pub fn text_without_secrets(text: &str) -> String {
     shown + rest
 }
 
-/// Returns one address without its secrets.
 fn url_without_secrets(url: &str) -> String {
     let Some((scheme, rest)) = url.split_once("://") else { return url.to_owned() };
     let (authority, after) = rest.split_at(rest.find(['/', '?', '#']).unwrap_or(rest.len()));

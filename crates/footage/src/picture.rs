@@ -51,7 +51,6 @@ pub fn decode(bytes: &[u8], path: &Path, bits: u32) -> Result<Frame, FootageErro
     decode_converted(bytes, path, bits, ImageConversion::default())
 }
 
-/// Decodes the bytes of an image with a conversion, see [`decode`].
 pub(crate) fn decode_converted(
     bytes: &[u8],
     path: &Path,

@@ -100,7 +100,6 @@ pub fn plan<P: AsRef<Path>>(
     Ok(ClipPlan::Batch(clips))
 }
 
-/// Returns the error for folders without a clip.
 fn no_clip_error(folder: PathBuf, skipped: Vec<SkippedInput>) -> FootageError {
     let other = skipped.into_iter().find_map(|one| match one.reason {
         SkipReason::ImageType { name } => Some(FootageError::ImageType { path: one.path, name }),

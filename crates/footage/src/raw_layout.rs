@@ -126,7 +126,6 @@ impl RawLayout {
         self.width.min(self.height) as usize >= side
     }
 
-    /// Returns the number of bytes of a frame.
     pub(crate) fn frame_bytes(self) -> u64 {
         self.first_bytes() as u64 + self.other_bytes()
     }

@@ -32,7 +32,6 @@ pub(crate) trait StreamFormat: Send {
     /// Returns true if the pixels may be those of a mosaic of colours.
     fn reads_mosaics(&self) -> bool;
 
-    /// Returns the error for a stream without a frame.
     fn no_frame_error(&self, name: String, problem: String) -> FootageError;
 }
 
@@ -130,7 +129,6 @@ impl<F: StreamFormat> FrameFeed for StreamFeed<F> {
     }
 }
 
-/// Returns true at the end of a stream.
 pub(crate) fn is_at_end(input: &mut dyn BufRead) -> Result<bool, String> {
     input.fill_buf().map(<[u8]>::is_empty).map_err(|error| error.to_string())
 }

@@ -64,7 +64,6 @@ impl DecisionRules {
         }
     }
 
-    /// Returns the SRS of a region from its class and its scores of all features.
     pub(crate) fn srs(&self, class: RegionClass, scores: &[Vec<f64>], region: usize) -> bool {
         let rules = self.of_class(class).features.iter();
         let mut votes = rules.zip(scores).map(|(rule, all)| all[region] >= rule.min_score);
@@ -80,7 +79,6 @@ impl DecisionRules {
         }
     }
 
-    /// Returns the TRS of a region from its class and its number of changed pixels.
     pub(crate) fn trs(&self, class: RegionClass, changed: f64) -> bool {
         changed >= self.of_class(class).min_count
     }

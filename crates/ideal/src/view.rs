@@ -15,7 +15,6 @@ pub(crate) struct FrameView<'a> {
     pub(crate) references: &'a RegionReferences,
 }
 
-/// The reference of every region.
 #[derive(Clone, Debug)]
 pub(crate) struct RegionReferences {
     /// The pixels of the references at the positions of their regions; the border is not filled.

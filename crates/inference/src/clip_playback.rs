@@ -6,7 +6,6 @@ use crate::camera::{CameraSetup, ReceivedFrame, ReceiverCamera};
 use foveate_playback::{ClipPlayer, PlaybackError, RunClips, RunMonitor};
 use std::num::NonZeroU32;
 
-/// A consumer of the frames of clips.
 pub(crate) trait FrameConsumer {
     /// Starts a clip or a data set. A data set comes with the network's input for a black screen,
     /// from which each of its frames starts.

@@ -94,7 +94,6 @@ impl<'a> NodeCosts<'a> {
         (self.mean_cost(self.whole[node], 1), self.mean_cost(self.masked[node], self.frames))
     }
 
-    /// Returns the cost of a frame that is computed whole.
     pub(crate) fn whole_frame_cost(&self) -> FrameCost {
         self.mean_cost(self.whole.iter().copied().sum(), 1)
     }

@@ -10,7 +10,6 @@ use crate::whole_frames::FrameAgreement;
 use foveate_accelerator::LayerCost;
 use foveate_network::{Executor, Network, NodeWork};
 
-/// The figures of a layer for a frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LayerFigures {
     pub(crate) positions: PositionCounts,

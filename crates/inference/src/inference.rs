@@ -243,7 +243,6 @@ impl std::fmt::Debug for Inference {
     }
 }
 
-/// Writes the tables, the charts and the summary of a run.
 fn write_tables_and_charts(
     staging: &StagedFolder,
     ended: &FinishedRun,

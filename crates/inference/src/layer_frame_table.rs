@@ -16,12 +16,10 @@ use foveate_files::tables::{Column, ColumnType, ParquetWriter, TableValue};
 use foveate_network::Network;
 use foveate_staging::{StagedFolder, StagingError};
 
-/// The name of the file.
 pub(crate) const FILE_NAME: &str = "layers_frames.parquet";
 /// The number of rows of a group, which takes a few megabytes of memory.
 const ROWS_PER_GROUP: usize = 1 << 16;
 
-/// A row of the table: one layer of one frame.
 struct LayerFrameRow<'a> {
     frame: &'a FrameFigures,
     node: usize,

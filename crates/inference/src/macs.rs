@@ -57,7 +57,6 @@ impl AddAssign for Macs {
     }
 }
 
-/// Returns the MACs of all layers.
 pub(crate) fn macs_of_layers(network: &Network, sums: &[PositionCounts]) -> Macs {
     #[allow(clippy::cast_precision_loss, reason = "a mean")]
     let of = |share: &dyn Fn(usize, &PositionCounts) -> f64| {

@@ -72,7 +72,6 @@ struct FilesFooter<'a> {
     outputs: &'a [crate::RecordedOutput],
 }
 
-/// Renders the page.
 pub(crate) fn render_page(
     summary: &InferenceSummary,
     frames: &[FrameFigures],

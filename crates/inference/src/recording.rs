@@ -10,7 +10,6 @@ use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 use serde::Serialize;
 
-/// The folder of all outputs.
 pub(crate) const OUTPUTS_FOLDER: &str = "outputs";
 /// The largest number of letters of a file's name.
 const MAX_NAME_LETTERS: usize = 100;
@@ -186,7 +185,6 @@ pub(crate) fn free_name(name: &str, taken: &[String]) -> String {
     names.find(|file| !is_taken(file)).expect("some number is free")
 }
 
-/// Formats a shape as text.
 fn shape_text(shape: &[usize]) -> String {
     shape.iter().map(ToString::to_string).collect::<Vec<_>>().join("x")
 }

@@ -29,7 +29,6 @@ use std::time::Instant;
 /// The values of the summary that come from the options and not from the frames.
 pub(crate) struct RunMetadata {
     pub(crate) computation: Computation,
-    /// The name of the accelerator.
     pub(crate) accelerator: Option<String>,
     /// The result of tuning, and its goal.
     pub(crate) tuning: Option<(TuningSummary, TuningGoal)>,

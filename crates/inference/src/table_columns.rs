@@ -84,7 +84,6 @@ impl ColumnHeading {
         FigureColumn { numbers: false, ..self.number(value) }
     }
 
-    /// Creates a column of numbers that only the page has.
     const fn page_number<T>(self, value: fn(&T) -> FigureValue) -> FigureColumn<T> {
         FigureColumn { is_in_files: false, ..self.number(value) }
     }
@@ -131,7 +130,6 @@ pub(crate) const CLIPS: &[FigureColumn<ClipSummary>] = &[
         .text(|it| Text(it.problem.clone().unwrap_or_default())),
 ];
 
-/// The columns of the table of layers.
 pub(crate) const LAYERS: &[FigureColumn<LayerSummary>] = &[
     heading("name", "name", "", "name of the node in the model").text(|it| Text(it.name.clone())),
     heading("operator", "operator", "", OPERATOR).text(|it| Text(it.operator.clone())),
@@ -212,7 +210,6 @@ pub(crate) const FRAMES: &[FigureColumn<FrameFigures>] = &[
         .number(|it| detection_count(it, |found| found.added)),
 ];
 
-/// Returns a number of detections of a frame, if detections are read.
 fn detection_count(frame: &FrameFigures, of: fn(&DetectionCounts) -> u64) -> FigureValue {
     let found = frame.whole_frame_agreement.and_then(|sight| sight.found);
     found.map_or(Real(None, 0), |found| Count(of(&found)))

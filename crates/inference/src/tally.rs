@@ -38,7 +38,6 @@ pub(crate) struct NotFiniteTally {
 }
 
 impl NotFiniteTally {
-    /// Checks the outputs of a frame.
     pub(crate) fn check_outputs(
         &mut self,
         (clip, frame): (&str, u64),

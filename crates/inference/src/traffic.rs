@@ -47,7 +47,6 @@ impl TrafficTally {
         found
     }
 
-    /// Returns the mean over `frames` frames.
     #[allow(clippy::cast_precision_loss, reason = "means")]
     pub(crate) fn mean(&self, frames: u64) -> FrameTraffic {
         let frames = frames.max(1) as f64;

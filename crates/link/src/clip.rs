@@ -17,7 +17,6 @@ use crate::error::scratch_error;
 use crate::sweep::{SweptDesign, swept_designs};
 use crate::{GreyFootage, LinkError, Quality, SentCounts};
 
-/// The results of one clip.
 pub(crate) struct ClipResults {
     pub(crate) inputs: Vec<String>,
     /// The reason why the clip ended early, if it did.

@@ -87,7 +87,6 @@ impl Codec {
         }
     }
 
-    /// Returns the quantizers of a curve.
     pub(crate) fn curve_quantizers(self) -> &'static [u32] {
         match self {
             Self::Mjpeg => &[1, 2, 4, 8, 16, 31],

@@ -71,7 +71,6 @@ impl LinkFigures {
     }
 }
 
-/// Returns the frame of a unit as an index.
 fn frame_index(unit: &LinkUnit) -> usize {
     usize::try_from(unit.frame).expect("frames are in memory")
 }

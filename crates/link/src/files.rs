@@ -10,7 +10,6 @@ use crate::{
     ClipReport, CurvePoint, LinkError, LinkReport, Quality, SenderReport, UnbufferedFigures,
 };
 
-/// Writes all files.
 pub(crate) fn write(staging: &StagedFolder, report: &LinkReport) -> Result<(), LinkError> {
     let senders = |clip: &ClipReport| -> Vec<NamedCells> {
         clip.senders.iter().map(|sender| sender_row(clip, sender)).collect()

@@ -69,7 +69,6 @@ impl<'a> RowRecord<'a> {
         places.zip(&self.rows)
     }
 
-    /// Returns the row of regions of a region.
     fn row(&mut self, frame: u64, region: u32) -> &mut RowOutput {
         let row = frame * u64::from(self.design.rows()) + u64::from(region / self.design.columns());
         let place = usize::try_from(row).expect("rows are in memory");

@@ -12,13 +12,9 @@ pub const VERSION: u16 = 1;
 pub const MAGIC: [u8; 8] = *b"FOVEATE\n";
 /// The first byte of every packet.
 pub(crate) const MARK: u8 = 0xFA;
-/// The number of bytes of a word.
 pub(crate) const WORD_BYTES: usize = 8;
-/// The number of words of a FRAME.
 pub(crate) const FRAME_WORDS: usize = 7;
-/// The number of words of an END.
 pub(crate) const END_WORDS: usize = 3;
-/// The number of words of a REGISTER.
 pub(crate) const REGISTER_WORDS: usize = 3;
 /// The number of words around the payload of a packet: its head and its tail.
 pub(crate) const HEAD_AND_TAIL_WORDS: usize = 2;

@@ -116,7 +116,6 @@ pub fn append_scores<S: IntoIterator<Item = u64>>(
     Ok(())
 }
 
-/// Appends the record of a region.
 fn append_record(
     records: &mut Vec<u8>,
     layout: &PacketLayout,

@@ -33,7 +33,6 @@ pub(crate) const fn index(value: u32) -> usize {
     value as usize
 }
 
-/// Returns the number if it is in the range of its field.
 pub(crate) fn checked_field(
     field: &'static str,
     value: u64,

@@ -14,7 +14,6 @@ pub struct RunMonitor<'a> {
     clips_done: AtomicUsize,
 }
 
-/// The form of a report.
 enum ReportForm<'a> {
     Frames { total: Option<u64> },
     Clips { total: usize },

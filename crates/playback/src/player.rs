@@ -31,7 +31,6 @@ pub struct ClipPlayer {
     problem: Option<String>,
 }
 
-/// The state of a player.
 enum PlayerState {
     Opened(Box<dyn FrameSource>),
     Reading(FrameReader),

@@ -13,7 +13,6 @@ use foveate_toolchain::Interrupt;
 /// The number of frames that wait. Besides them, one is being read and one is being worked on.
 const FRAMES_AHEAD: usize = 3;
 
-/// A message of the reader.
 pub(crate) enum ReaderMessage {
     /// The next frame, and its origin.
     Frame(SourceFrame, Option<FrameOrigin>),

@@ -67,7 +67,6 @@ impl Simulation {
         Ok(summary)
     }
 
-    /// Writes all files.
     fn write_files(
         &mut self,
         staging: &StagedFolder,

@@ -268,7 +268,6 @@ fn check_claimed_size(
     Err(SimulatorError::ClaimedSize { frame, width, height, most: MAX_CLAIMED_PIXELS })
 }
 
-/// Returns a copy of the screen.
 fn copy_of_screen(design: &Design, screen: FramePixels<'_>) -> Result<ByteFrame, SimulatorError> {
     let (width, height, bits) = (design.width(), design.height(), design.pixel_bits());
     Ok(match screen {

@@ -47,7 +47,6 @@ impl FileList {
         Ok(Some(list))
     }
 
-    /// Lists every file in a folder.
     pub(crate) fn from_folder(folder: &Path) -> io::Result<Self> {
         let mut list = Self::default();
         for FolderFile { name, path } in files_below(folder)? {
@@ -87,7 +86,6 @@ impl FileList {
         Some(format!("{}{changed}", shown_name(name)))
     }
 
-    /// Returns the text of the list, sorted by name.
     pub(crate) fn text(&self) -> Vec<u8> {
         let mut text = LIST_HEADER.to_owned();
         for (name, sums) in &self.0 {
@@ -207,7 +205,6 @@ fn list_line(sum: &[u8], name: &[u8]) -> Vec<u8> {
     [mark, sum, b"  ", &escaped, b"\n"].concat()
 }
 
-/// Parses the hash and the name in a line.
 fn parse_line(line: &[u8]) -> Option<(FileHash, Vec<u8>)> {
     const DIGITS: usize = 64;
     let (is_escaped, line) = match line.strip_prefix(b"\\") {

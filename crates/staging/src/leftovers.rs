@@ -56,7 +56,6 @@ fn remove_leftovers(folder: &Path) {
     }
 }
 
-/// The kind of a leftover. Its name shows the kind.
 #[derive(Debug, PartialEq)]
 enum LeftoverKind {
     File,

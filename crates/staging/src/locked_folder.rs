@@ -7,11 +7,9 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
-/// The name of the locked file.
 pub(crate) const LOCK_FILE: &str = ".foveate-lock";
 /// The content of the locked file. A folder without it was not made by this crate.
 const LOCK_TEXT: &[u8] = b"Foveate works in this folder while this file is locked.\n";
-/// The name of the folder for the work.
 const WORK_FOLDER: &str = "work";
 /// The number of random letters and digits at the end of a name.
 pub(crate) const RANDOM_LETTERS: usize = 10;
@@ -65,7 +63,6 @@ impl LockedFolder {
         })
     }
 
-    /// Returns the folder for the work.
     pub(crate) fn work(&self) -> &Path {
         &self.work
     }

@@ -7,7 +7,6 @@ use crate::runner::ClipResult;
 use crate::study::Study;
 use crate::table::StudyTable;
 
-/// The findings of a study.
 pub(crate) struct StudyFindings {
     pub(crate) table: StudyTable,
     /// A smaller table, which is printed if the table is too large.

@@ -32,7 +32,6 @@ impl StudyTable {
         text
     }
 
-    /// Returns the table as Markdown.
     pub(crate) fn markdown(&self) -> String {
         let mut text =
             format!("| {} |\n|{}\n", self.columns.join(" | "), " --- |".repeat(self.columns.len()));

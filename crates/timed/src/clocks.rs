@@ -32,13 +32,11 @@ impl FrameClocks {
         Self { delays }
     }
 
-    /// Returns the edge of a place.
     pub(crate) fn edge(&self, place: u64) -> u64 {
         let after = self.delays.partition_point(|&(from, _)| from <= place);
         place + self.delays[after - 1].1
     }
 
-    /// Returns the edges of the first `places` places.
     pub(crate) fn edges(&self, places: u64) -> impl Iterator<Item = u64> {
         let ends = self.delays[1..].iter().map(|&(from, _)| from).chain([places]);
         let runs = self.delays.iter().zip(ends);

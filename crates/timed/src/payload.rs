@@ -12,7 +12,6 @@ use crate::SentKind;
 /// The values that regions send.
 #[derive(Clone, Copy, Debug)]
 pub struct SentValues<'a> {
-    /// The number of pixels of a word.
     word_pixels: u32,
     source: ValueSource<'a>,
 }
@@ -26,7 +25,6 @@ enum ValueSource<'a> {
 }
 
 impl<'a> SentValues<'a> {
-    /// Returns the values of the engine's last frame, whose raw pixels are `raw`.
     pub(crate) fn of_last_frame(engine: &'a Engine, raw: FramePixels<'a>, word: u32) -> Self {
         Self { word_pixels: word, source: ValueSource::LastFrame { engine, raw } }
     }
@@ -44,7 +42,6 @@ impl<'a> SentValues<'a> {
         }
     }
 
-    /// Appends the values of some words of a region.
     pub(crate) fn append_words(
         &self,
         kind: SentKind,

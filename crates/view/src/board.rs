@@ -186,7 +186,6 @@ impl BoardRegisters {
     }
 }
 
-/// Returns the registers of a core and of its board that are read.
 fn read_registers(design: &Design) -> Option<Vec<Register>> {
     let status = |name: &str, low: u32, width: u32, doc: &str| RegisterField {
         name: name.to_owned(),

@@ -13,7 +13,6 @@ use foveate_frame::FramePixels;
 use foveate_playback::{ClipPlayer, PlaybackError, PlayedFrame};
 use serde_json::json;
 
-/// The status of the input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum InputStatus {
     Running,
@@ -46,7 +45,6 @@ struct PlayerState {
     status: InputStatus,
     text: String,
     newest: Option<NumberedFrame>,
-    /// The number of the next frame.
     next: u64,
     /// The largest number that was asked for.
     largest_requested: u64,
@@ -330,7 +328,6 @@ mod tests {
 
     use super::*;
 
-    /// Returns the head of an answer.
     fn head(answer: &[u8]) -> serde_json::Value {
         let (length, rest) = answer.split_first_chunk().unwrap();
         serde_json::from_slice(&rest[..u32::from_le_bytes(*length) as usize]).unwrap()

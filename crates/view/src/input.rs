@@ -24,7 +24,6 @@ pub(crate) struct Input {
     baud: u32,
 }
 
-/// An opened input.
 pub(crate) struct OpenInput {
     pub(crate) reader: Box<dyn Read + Send>,
     /// The port for writing, if the input is a serial port.

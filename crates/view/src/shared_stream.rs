@@ -28,7 +28,6 @@ const REPORTED_LIMIT: u64 = 10;
 /// fetched.
 const MESSAGE_QUEUE: usize = 100;
 
-/// The status of the stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum StreamStatus {
@@ -42,7 +41,6 @@ pub(crate) enum StreamStatus {
     Ended,
 }
 
-/// The figures of a frame.
 #[derive(Clone, Debug, Serialize)]
 struct FrameFigures {
     /// The number of the change that added the frame.

@@ -214,7 +214,6 @@ impl<'a> BufferCapacity<'a> {
         }
     }
 
-    /// Returns the number of bytes for these channels, filters and images.
     fn needed_bytes(&self, channels: u64, filters: u64, images: u64) -> u64 {
         images
             * (self.accelerator.value_bytes(channels * self.inputs)

@@ -102,7 +102,6 @@ pub(crate) enum PacketContent {
 }
 
 impl OutputArgs {
-    /// Returns the options of the run.
     pub(crate) fn options(&self) -> RunOptions {
         RunOptions {
             pixel_events: PixelEventOptions {
@@ -124,7 +123,6 @@ impl OutputArgs {
 }
 
 impl ReceiverOutputArgs {
-    /// Returns the options of the run.
     pub(crate) fn options(&self) -> RunOptions {
         let medium = |pictures| match pictures {
             PictureFormat::Png => foveate_simulator::PictureFormat::Png,

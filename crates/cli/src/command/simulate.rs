@@ -139,7 +139,6 @@ fn clocks_line(figures: &ClockFigures) -> String {
     )
 }
 
-/// Returns the line about the folder of a data set.
 fn data_set_line(folder: &Path, made: &DataSetPaths) -> String {
     let labels = match (&made.labels, made.classes.len()) {
         (Some(labels), _) => format!(", labels in {}", folder.join(labels).display()),

@@ -148,7 +148,6 @@ fn percent(share: f64) -> String {
     format!("{:.2}", rounded_percent(share))
 }
 
-/// Returns the rows as a table, aligned or in Markdown.
 fn figure_table<const N: usize>(
     names: [&str; N],
     rows: impl Iterator<Item = [String; N]>,

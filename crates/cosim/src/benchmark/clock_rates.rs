@@ -7,7 +7,6 @@ use super::benchmark_report::LevelMeasurement;
 use super::pass_timer::PassTimes;
 use super::unpacked_inputs::UnpackedInputs;
 
-/// Returns the rates of a level with clocks.
 #[allow(clippy::cast_precision_loss, reason = "rates need no 53 bits")]
 pub(super) fn clock_rates(
     design: &Design,

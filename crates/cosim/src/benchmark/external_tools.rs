@@ -5,7 +5,6 @@ use std::time::Duration;
 
 use foveate_toolchain::{Cache, Toolchain};
 
-/// The time limit of a run.
 pub(super) const RUN_TIME_LIMIT: Duration = Duration::from_secs(3600);
 
 /// The tools of the machine, and the cache of their builds.

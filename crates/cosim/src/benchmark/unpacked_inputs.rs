@@ -216,7 +216,6 @@ fn own_role(role: PortRole) -> Option<PortRole> {
     }
 }
 
-/// Returns the port with a role.
 pub(super) fn field_of_role(layout: &RecordLayout, role: PortRole) -> Option<&RecordField> {
     layout.fields().iter().find(|field| field.port.role == role)
 }

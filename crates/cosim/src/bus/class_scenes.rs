@@ -6,7 +6,6 @@ use super::traffic::{ALL_BYTES, ExpectedFrame, ExpectedRead, FrameFate, FrameMap
 use foveate_design::{CLASSES_PER_WORD, RegionClass, class_word};
 use foveate_frame::Frame;
 
-/// The number of maps of a scene.
 const MAPS: usize = 4;
 /// The number of frames that come while maps are committed at any time.
 const FREE_FRAMES: usize = 12;

@@ -18,14 +18,12 @@ const LOWEST_BYTE: u32 = 1;
 const ALL_BYTES: u32 = super::traffic::ALL_BYTES;
 /// The last word address; no register is there.
 const LAST_ADDRESS: u32 = 0xFFC;
-/// The number of accesses in a storm.
 const STORM_ACCESSES: usize = 60;
 /// The number of resets among accesses. Each comes at most `MAX_RESET_DELAY` clocks after the
 /// accesses, while one is under way or its answer waits.
 const RESET_COUNT: u64 = 40;
 const MAX_RESET_DELAY: u64 = 14;
 
-/// A scene: its name and its traffic.
 pub(super) type BusScene<'a> = (&'static str, Traffic<'a>);
 
 /// The registers of a core with other thresholds, and the class whose regions show that they differ.
@@ -446,7 +444,6 @@ impl<'a> SceneBuilder<'a> {
         traffic
     }
 
-    /// Returns a random register.
     fn random_register(&mut self) -> &'a Register {
         &self.registers[self.random.index(self.registers.len() - 1)]
     }
@@ -628,7 +625,6 @@ impl<'a> SceneBuilder<'a> {
         self.design.region_size().pow(2) / self.design.pixels_per_clock()
     }
 
-    /// Returns the number of frames of a scene.
     fn frame_count(&self) -> u32 {
         let frames = SCENE_CLOCKS / self.design.timing().clocks_per_frame().max(1);
         u32::try_from(frames.clamp(3, 7)).unwrap_or(3)
@@ -678,7 +674,6 @@ fn is_class_register(register: &Register) -> bool {
     register.name.starts_with("zone_")
 }
 
-/// Returns the value of a register after a reset.
 fn reset_value(register: &Register) -> u32 {
     let status = if register.name == "tick_rate" { TICK_RATE } else { 0 };
     register

@@ -39,7 +39,6 @@ impl ThresholdKind {
 }
 
 impl ThresholdKey {
-    /// Returns all thresholds of a design.
     pub(super) fn all_of(design: &Design) -> Vec<Self> {
         let of_class = |class| ThresholdKind::all_of(design).map(move |kind| Self { class, kind });
         let mut keys: Vec<_> = of_class(RegionClass::Normal).collect();
@@ -51,7 +50,6 @@ impl ThresholdKey {
         keys
     }
 
-    /// Returns the name of the register that holds the threshold.
     pub(super) fn register(self, design: &Design) -> String {
         let feature = |place: usize| -> FeatureKind { design.features()[place].kind() };
         let own = match self.kind {

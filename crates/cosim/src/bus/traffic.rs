@@ -53,7 +53,6 @@ impl FrameMaps {
         self.map(version).is_some() || self.maps.is_empty() && version == 0
     }
 
-    /// Returns the map of a version.
     pub(super) fn map(&self, version: u16) -> Option<&[RegionClass]> {
         let behind = usize::from(version.wrapping_sub(self.first_version));
         let turn = if self.take_turns { behind % self.maps.len().max(1) } else { behind };
@@ -320,7 +319,6 @@ impl<'a> Traffic<'a> {
         self.expect_frame(sent);
     }
 
-    /// Returns the number of transfers of some lines.
     fn transfers(&self, lines: u32) -> usize {
         lines as usize * self.words_per_line()
     }
@@ -364,7 +362,6 @@ impl<'a> Traffic<'a> {
     }
 }
 
-/// Returns the rows of a frame.
 pub(super) fn rows(frame: &Frame) -> impl Iterator<Item = &[u16]> {
     (0..frame.height()).map(|y| frame.row(y))
 }

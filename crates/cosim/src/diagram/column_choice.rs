@@ -8,7 +8,6 @@ use std::collections::BTreeSet;
 /// of times.
 const SHOWN_CHANGES: usize = 2;
 
-/// A column of a diagram.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum DiagramColumn {
     /// The clock that begins with this edge, in the stretch with this index.

@@ -8,7 +8,6 @@ pub(crate) struct ArrayInstance {
     pub(super) ports: Vec<(String, PortConnection)>,
 }
 
-/// The connection of a port.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum PortConnection {
     /// A whole signal.

@@ -8,9 +8,7 @@ use std::fmt;
 /// A module with the values of its parameters, in hexadecimal.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct ModuleVariant {
-    /// The name of the module.
     pub(crate) module: String,
-    /// The values of its parameters, by name.
     pub(crate) parameters: BTreeMap<String, String>,
 }
 

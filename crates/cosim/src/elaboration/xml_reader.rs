@@ -9,7 +9,6 @@ use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 use std::io::BufRead;
 
-/// The state of the reader.
 #[derive(Default)]
 struct XmlReaderState {
     elaboration: Elaboration,

@@ -26,7 +26,6 @@ const REFUSED_CLOCKS: u64 = 3;
 /// has four pixels.
 const CLOCKS_WITHIN_FLUSH: u64 = 2;
 
-/// A player of scripts.
 pub(super) struct ScriptPlayer<'a> {
     driver: ModelDriver<'a, VectorRecorder>,
     surroundings: SequenceSurroundings,

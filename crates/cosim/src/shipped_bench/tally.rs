@@ -88,7 +88,6 @@ impl TallyCounter {
         }
     }
 
-    /// Counts the expected outputs of a clock.
     pub(super) fn count_clock(&mut self, outputs: &RecordLayout, expected: &[u8]) {
         let at = |role| outputs.fields().iter().find(|field| field.port.role == role);
         let is_high = |role| at(role).is_some_and(|field| field.get(expected, 0) == 1);

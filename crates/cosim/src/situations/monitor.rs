@@ -117,7 +117,6 @@ impl SituationMonitor {
         facts.occurrences(&self.design, self.top)
     }
 
-    /// Adds `clocks` clocks with the same inputs and outputs.
     pub(crate) fn add_clocks(&mut self, input: &[u8], output: &[u8], clocks: u64) {
         let clock = WatchedClock { input, output };
         if clock.is_high(&self.ports.reset) {

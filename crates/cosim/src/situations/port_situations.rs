@@ -81,7 +81,6 @@ const fn situation(
     PortSituation { name, is_possible, count }
 }
 
-/// The list of all situations.
 const SITUATIONS: &[PortSituation] = &[
     situation("a region is active", |_, _| true, |facts| facts.active),
     situation("a region is held", |design, _| can_hold(design), |facts| facts.held),
@@ -290,7 +289,6 @@ pub(crate) fn largest_min_count(design: &Design) -> u32 {
     u32::MAX >> (u32::BITS - design.count_bits())
 }
 
-/// Returns true if a region can be irrelevant.
 pub(crate) fn can_be_irrelevant(design: &Design) -> bool {
     let mut votes = design.features().iter().map(|feature| feature.min_score() == 0);
     let always = match design.combine() {

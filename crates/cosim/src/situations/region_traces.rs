@@ -14,7 +14,6 @@ pub(super) struct ShownDecision {
     pub(super) count: Option<u64>,
 }
 
-/// The last decision of a region.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum LastDecision {
     #[default]
@@ -33,7 +32,6 @@ struct RegionTrace {
     summary_frame: Option<usize>,
     /// True if the region was held while a summary was shown.
     held_with_summary: bool,
-    /// True if the region was active after a summary.
     active_after_summary: bool,
     /// True if the region was active, and has been irrelevant since.
     active_then_irrelevant: bool,

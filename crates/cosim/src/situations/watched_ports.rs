@@ -5,7 +5,6 @@ use crate::field::RecordField;
 use crate::layout::RecordLayout;
 use foveate_design::PortRole;
 
-/// Returns true if a role is a threshold.
 fn is_threshold(role: PortRole) -> bool {
     matches!(
         role,

@@ -8,10 +8,8 @@ use foveate_design::PortRole;
 
 /// A receiver of clocks: a recording on disk, the vectors of a bench, or a diagram.
 pub(crate) trait ClockReceiver {
-    /// Returns the layout of an input record.
     fn inputs(&self) -> &RecordLayout;
 
-    /// Returns the layout of an output record.
     fn outputs(&self) -> &RecordLayout;
 
     /// Takes `clocks` clocks with the same inputs and outputs.

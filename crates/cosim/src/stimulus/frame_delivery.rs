@@ -24,7 +24,6 @@ pub(crate) enum FrameDelivery {
     Strays,
 }
 
-/// A number of beats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum BeatCount {
     One,

@@ -53,7 +53,6 @@ impl<'a> FrameFeed<'a> {
         width as usize
     }
 
-    /// Returns the design.
     pub(super) fn design(&self) -> &'a Design {
         match self {
             Self::Square(design) | Self::Regions(design) => design.design(),

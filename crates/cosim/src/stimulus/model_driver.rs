@@ -196,7 +196,6 @@ impl<'a, Receiver: ClockReceiver> ModelDriver<'a, Receiver> {
         self.receiver
     }
 
-    /// Returns the model.
     pub(super) fn model(&self) -> &dyn CycleModel {
         &*self.core
     }

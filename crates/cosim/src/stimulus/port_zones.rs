@@ -112,7 +112,6 @@ impl PortZones {
         }
     }
 
-    /// Returns the values of the inputs.
     pub(super) fn inputs(&self) -> ZoneInputs<'_> {
         ZoneInputs {
             map: self.memory.as_ref().map(|memory| memory.inputs).unwrap_or_default(),

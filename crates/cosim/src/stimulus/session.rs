@@ -45,7 +45,6 @@ pub(super) enum StimulusPace {
 /// The number of directed sequences that are recorded.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SequenceLimits {
-    /// The number of rounds.
     pub(super) rounds: u32,
     /// The largest number of directed sequences per round, from the first on.
     pub(super) max_sequences: usize,
@@ -258,12 +257,10 @@ impl<'a> StimulusSession<'a> {
         }
     }
 
-    /// Returns the turn of a sink for the turn of a sequence.
     fn sink_turn(&self, turn: usize) -> usize {
         turn + if self.plan.limits.is_brief() { LOSSY_TURN_OFFSET } else { 0 }
     }
 
-    /// Returns the number of beats of a frame.
     fn beats_per_frame(&self) -> usize {
         let beats = self.design.timing().pixels_per_frame();
         usize::try_from(beats).expect("a frame is in memory")

@@ -7,7 +7,6 @@ use crate::verilog_text::PortLine;
 use askama::Template;
 use foveate_design::{Port, PortRole, RasterDesign, StreamRole, index_bits};
 
-/// The number of bits of a word of a packet.
 const PACKET_WORD_BITS: u32 = 64;
 /// The number of words of a packet around its payload: its head and its tail.
 const HEAD_AND_TAIL_WORDS: u32 = 2;
@@ -183,7 +182,6 @@ fn is_outside(design: RasterDesign<'_>, port: &Port) -> bool {
     matches!(stream, Some(StreamRole::References | StreamRole::StoredWords))
 }
 
-/// Returns the signal that a port of the array is connected to.
 fn array_signal(design: RasterDesign<'_>, port: &Port) -> String {
     let own = match port.role {
         PortRole::Clock => "aclk",

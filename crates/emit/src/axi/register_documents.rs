@@ -140,7 +140,6 @@ pub(super) fn package_ip(
     })
 }
 
-/// Returns a register as a list of Tcl.
 fn tcl_register(register: &Register) -> String {
     let field = |field: &RegisterField| {
         let (access, written) = match field.kind {

@@ -6,9 +6,7 @@ use crate::thresholds::threshold_value;
 use foveate_camera::{IrrelevantRendering, Payload};
 use foveate_design::{CLASS_WORD_BITS, CoreInterface, Design, Port, RasterDesign};
 
-/// The number of bits of a register.
 pub(crate) const REGISTER_BITS: u32 = 32;
-/// The version of this register map.
 const MAP_VERSION: u32 = 1;
 /// The address of the first threshold, in bytes.
 const THRESHOLD_BASE: u32 = 0x100;
@@ -381,7 +379,6 @@ pub(crate) fn thresholds(design: &Design) -> Vec<ThresholdInput> {
     controls.into_iter().filter_map(input).collect()
 }
 
-/// Returns the fingerprint of a design as a number.
 pub(crate) fn fingerprint_number(design: &Design) -> u64 {
     u64::from_str_radix(&design.fingerprint(), 16).expect("a fingerprint is hexadecimal")
 }

@@ -10,7 +10,6 @@ use crate::verilog_text::rendered_text;
 #[template(path = "core_sync.md")]
 struct SyncSection {
     syncs: bool,
-    /// The number of beats of a frame, and the name of a beat.
     beats: u64,
     beat: &'static str,
     /// The unit that gets a beat at each edge, as words that follow `beat`; empty for the whole

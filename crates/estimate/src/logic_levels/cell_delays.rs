@@ -23,7 +23,6 @@ const MEMORY_START: u32 = 1190;
 /// The delays from the clock to the output of block RAM, without and with its output register.
 const BLOCK_START: [u32; 2] = [2454, 882];
 
-/// Returns the delay from an input of a cell to one of its outputs.
 pub(super) fn arc_delay(
     kind: CellKind,
     cell: &PathCell,

@@ -99,7 +99,6 @@ impl<'a> NetGraph<'a> {
         nested_name(&instance.path, &instance.module.net_name(*local))
     }
 
-    /// Returns the graph's number of a net of an instance.
     fn net(&mut self, instance: &ModuleInstance<'a>, nets: &mut NetNumbers, local: u32) -> u32 {
         *nets.entry(local).or_insert_with(|| {
             self.nets.push(GraphNet { instance: instance.clone(), local });

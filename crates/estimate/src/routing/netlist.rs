@@ -169,7 +169,6 @@ impl NetlistCell {
         }
     }
 
-    /// Returns the only bit of a port.
     pub(super) fn bit(&self, port: &str) -> Option<&NetlistBit> {
         self.connections.get(port)?.first()
     }

@@ -22,7 +22,6 @@ pub(super) struct TimedArray<'a> {
     pub(super) clock: &'a str,
     /// The modules of the netlist that are units, the most frequent first.
     pub(super) unit_kinds: &'a [String],
-    /// The number of units.
     pub(super) units: u64,
     /// True if the units share logic.
     pub(super) has_shared_cells: bool,
@@ -35,7 +34,6 @@ pub(super) struct ArrayTiming {
     pub(super) leakage_nw: f64,
 }
 
-/// Times an array.
 pub(super) fn time_array(
     toolchain: &Toolchain,
     cache: &Cache,

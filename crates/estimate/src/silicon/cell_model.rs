@@ -307,7 +307,6 @@ impl OutputTransition {
     }
 }
 
-/// Returns the pins to which a group is related.
 fn related_pins(group: &LibertyGroup, names: &[&str]) -> Result<Vec<usize>, String> {
     let pin = |name: &str| {
         let pin = names.iter().position(|own| *own == name);

@@ -17,7 +17,6 @@ pub(super) struct LibertyGroup {
     pub(super) kind: String,
     /// The first argument, which is the name; empty without arguments.
     pub(super) name: String,
-    /// The other arguments.
     pub(super) other_arguments: Vec<String>,
     /// The simple attributes in order.
     attributes: Vec<(String, String)>,
@@ -37,7 +36,6 @@ impl LibertyGroup {
         self.lists.iter().rev().find(|(own, _)| own == name).map(|(_, list)| list.as_slice())
     }
 
-    /// Returns the groups of a kind.
     pub(super) fn groups_of<'a>(&'a self, kind: &'a str) -> impl Iterator<Item = &'a Self> {
         self.groups.iter().filter(move |group| group.kind == kind)
     }

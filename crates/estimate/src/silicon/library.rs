@@ -34,7 +34,6 @@ pub struct LibertyLibrary {
     pub(super) cells: BTreeMap<String, LibertyCell>,
 }
 
-/// A cell of a library.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct LibertyCell {
     /// The area in square micrometres.
@@ -117,7 +116,6 @@ impl LibertyLibrary {
         self.areas_of(CellRole::Nand2).map(|(_, area)| area).reduce(f64::min)
     }
 
-    /// Returns the name of the smallest buffer.
     pub(super) fn smallest_buffer(&self) -> Option<&str> {
         let smaller = |a: &(&str, f64), b: &(&str, f64)| a.1.total_cmp(&b.1);
         self.areas_of(CellRole::Buffer).min_by(smaller).map(|(name, _)| name)

@@ -156,7 +156,6 @@ impl FunctionParser<'_> {
     }
 }
 
-/// Returns the only part, or all parts joined.
 fn joined(
     mut parts: Vec<LogicFunction>,
     join: fn(Vec<LogicFunction>) -> LogicFunction,

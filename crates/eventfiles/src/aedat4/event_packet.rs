@@ -7,11 +7,9 @@ use flatbuffers::{FlatBufferBuilder, field_index_to_field_offset};
 use super::flat_table::FlatTable;
 use crate::PixelEvent;
 
-/// The identifier of packets of events.
 pub(super) const EVENTS_IDENTIFIER: &str = "EVTS";
 /// The field of the table that has the events.
 const ELEMENTS: u16 = 0;
-/// The bytes of an event.
 const EVENT_BYTES: usize = 16;
 
 /// Returns the flatbuffer of some events.
@@ -35,7 +33,6 @@ pub(super) fn packet_of_events(events: &[PixelEvent]) -> Vec<u8> {
 /// The events of a packet that were not taken yet.
 #[derive(Clone, Debug, Default)]
 pub(super) struct EventQueue {
-    /// The events as bytes.
     bytes: Vec<u8>,
     next: usize,
 }

@@ -18,7 +18,6 @@ pub(crate) const HEADER_START: u8 = FORMAT_LINE[0];
 const FORMAT_LINE: &[u8; 14] = b"#!AER-DAT4.0\r\n";
 /// The largest header in bytes, without its line.
 const MAX_HEADER_BYTES: u32 = 1 << 20;
-/// The identifier of a header.
 const HEADER_IDENTIFIER: &str = "IOHE";
 /// The fields of a header.
 const COMPRESSION: u16 = 0;
@@ -55,7 +54,6 @@ pub(super) fn header_bytes(size: (u32, u32)) -> Vec<u8> {
 }
 
 impl Aedat4Header {
-    /// Reads a header.
     pub(super) fn read(input: &mut impl BufRead) -> Result<Self, EventFileError> {
         let content = read_content(input)?;
         let table = FlatTable::new(&content).filter(|table| {

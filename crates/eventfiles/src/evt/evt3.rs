@@ -27,7 +27,6 @@ const CONTENT: u16 = (1 << CONTENT_BITS) - 1;
 const SIDE: u16 = (1 << 11) - 1;
 /// The bit of a polarity.
 const POLARITY: u16 = 1 << 11;
-/// The number of pixels of a vector.
 const VECTOR_PIXELS: u16 = 12;
 /// The least number of events of a first vector, which takes two words.
 const MIN_VECTOR_EVENTS: usize = 3;
@@ -141,7 +140,6 @@ impl Evt3Decoder {
         }
     }
 
-    /// Returns the next event of the last vector.
     pub(crate) fn next_of_vector(&mut self) -> Option<PixelEvent> {
         if self.vector == 0 {
             return None;

@@ -35,7 +35,6 @@ pub(crate) fn header_text(version: EvtVersion, (width, height): (u32, u32)) -> S
 }
 
 impl EvtHeader {
-    /// Reads a header.
     pub(crate) fn read(input: &mut impl BufRead) -> Result<Self, EventFileError> {
         let (mut version, mut size, mut bytes) = (None, None, 0);
         while input.fill_buf()?.first() == Some(&HEADER_START) {

@@ -37,7 +37,6 @@ impl<R: BufRead> EvtReader<R> {
         Ok(Self { input, version, size, words, at })
     }
 
-    /// Returns the version of the format.
     pub(crate) fn version(&self) -> EvtVersion {
         self.version
     }

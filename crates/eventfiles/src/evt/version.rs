@@ -5,7 +5,6 @@ use std::fmt;
 
 use crate::EventFormat;
 
-/// A version of EVT.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum EvtVersion {
     Evt2,
@@ -29,7 +28,6 @@ impl EvtVersion {
         }
     }
 
-    /// Returns the number of bytes of a word.
     pub(crate) fn word_bytes(self) -> usize {
         match self {
             Self::Evt2 => 4,

@@ -95,7 +95,6 @@ impl<'a> CameraSearch<'a> {
         self.examined.values()
     }
 
-    /// Returns the best thresholds of all cameras.
     pub(super) fn best_thresholds(&self) -> impl Iterator<Item = &ThresholdChoice> {
         self.best.values()
     }

@@ -130,7 +130,6 @@ impl SynthesizedDesign {
         }
     }
 
-    /// Returns the cost by which designs are chosen, as text.
     pub(super) fn cost_text(&self) -> String {
         let area = &self.silicon.array;
         let share = || {

@@ -75,7 +75,6 @@ fn read_from(file: &mut impl Read) -> Result<NpyArray, String> {
     }
 }
 
-/// Returns the text of a header.
 fn read_header(file: &mut impl Read) -> Result<String, String> {
     let header_error = |error: io::Error| match error.kind() {
         io::ErrorKind::UnexpectedEof => "it ends in its header".to_owned(),
@@ -126,7 +125,6 @@ fn parse_header(header: &str) -> Option<(String, bool, Vec<usize>)> {
     Some((dtype.to_owned(), is_fortran, shape.collect::<Option<_>>()?))
 }
 
-/// Returns the number of bytes of a value of a type.
 fn value_bytes(dtype: &str) -> Result<usize, String> {
     match dtype {
         "|b1" | "|u1" | "|i1" => Ok(1),

@@ -163,7 +163,6 @@ fn write_values<T: DataType>(
     Ok(())
 }
 
-/// Returns the columns in the schema language of Parquet.
 fn schema(message: &str, columns: &[Column]) -> String {
     let line = |Column { name, kind, optional }: &Column| {
         let presence = if *optional { "optional" } else { "required" };

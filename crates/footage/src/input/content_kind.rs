@@ -82,7 +82,6 @@ pub(crate) fn content_kind_of(start: &[u8]) -> ContentKind {
     }
 }
 
-/// Returns true for the start of a ZIP archive.
 pub(crate) fn is_archive_start(start: &[u8]) -> bool {
     ZIP_MAGICS.iter().any(|magic| start.starts_with(magic))
 }

@@ -24,7 +24,6 @@ pub(crate) enum EntryKind {
     Skipped(Option<SkipReason>),
 }
 
-/// Returns the kind of an entry.
 pub(crate) fn entry_kind(path: &Path) -> EntryKind {
     let known = match fs::metadata(path) {
         Ok(known) => known,

@@ -85,7 +85,6 @@ pub(crate) fn skipped_by_pattern(text: &str) -> Vec<SkippedInput> {
     found
 }
 
-/// Returns all paths that a pattern matches.
 fn pattern_matches(text: &str, case_sensitive: bool) -> Result<Vec<PathBuf>, FootageError> {
     let invalid = |error: glob::PatternError| FootageError::Pattern {
         pattern: text.to_owned(),

@@ -74,7 +74,6 @@ impl SequenceName {
         self.folder.join(format!("{before}{number:0digits$}{after}"))
     }
 
-    /// Returns the files with their numbers, in the order of the numbers.
     fn files(&self) -> Result<Vec<(u128, PathBuf)>, FootageError> {
         let mut files: Vec<(u128, PathBuf)> = entries(&self.folder)?
             .into_iter()

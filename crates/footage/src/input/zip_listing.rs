@@ -17,7 +17,6 @@ use crate::extension::{is_image_name, is_video_name, unread_image_type_by_name};
 use crate::options::ImageRelation;
 use crate::{FootageError, natural_order};
 
-/// An open archive.
 pub(super) type OpenArchive = ZipArchive<BufReader<File>>;
 
 /// An image in an archive.
@@ -66,7 +65,6 @@ fn entry_count(path: &Path) -> Option<usize> {
     (count < u16::MAX).then_some(count.into())
 }
 
-/// Returns the error for an archive, or for its entry of a name.
 pub(super) fn zip_error(path: &Path, entry: &str, error: &ZipError) -> FootageError {
     let entry = if entry.is_empty() { String::new() } else { format!("its entry `{entry}`: ") };
     let problem = match error {

@@ -115,7 +115,6 @@ fn header(bytes: &[u8]) -> Option<(PnmHeader, &[u8])> {
     within_limits(PnmHeader { kind, width, height, samples, largest }, raster)
 }
 
-/// Returns the header if it is within the limits.
 fn within_limits(header: PnmHeader, raster: &[u8]) -> Option<(PnmHeader, &[u8])> {
     let sides = header.width.max(header.height) <= u64::from(MAX_SIDE);
     (sides && header.samples <= 4 && (1..=65_535).contains(&header.largest))

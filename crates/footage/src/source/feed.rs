@@ -44,7 +44,6 @@ pub(crate) trait FrameFeed: Send {
     /// Ends the input, since no more frames are needed.
     fn stop(&mut self) {}
 
-    /// Returns true if every frame is a file with its own name.
     fn is_file_per_frame(&self) -> bool {
         false
     }

@@ -16,7 +16,6 @@ use crate::samples::SampleLayout;
 /// The largest number of characters of a fault that is kept.
 const MAX_FAULT_LENGTH: usize = 200;
 
-/// A frame that ffmpeg announced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct AnnouncedFrame {
     /// The time in units of the time base.

@@ -114,7 +114,6 @@ const SOUND: &[&str] = &[
     "w64", "wav", "wv",
 ];
 
-/// Returns true for a format of sound.
 pub(super) fn is_sound(name: &str) -> bool {
     SOUND.contains(&name)
 }

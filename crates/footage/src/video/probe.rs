@@ -15,7 +15,6 @@ use crate::orientation::FrameTurn;
 /// The time limit of ffprobe. A file that takes longer cannot be read.
 const LIMIT: Duration = Duration::from_secs(60);
 
-/// The properties of a video.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct VideoProperties {
     /// The number of the stream among the video streams, from 0.
@@ -28,7 +27,6 @@ pub(super) struct VideoProperties {
     pub(super) container: String,
     /// The duration in seconds, if the container states it.
     pub(super) duration_s: Option<f64>,
-    /// The name of the codec.
     pub(super) codec: String,
     /// The name of the pixel format. It is empty for a medium that was not probed.
     pub(super) pixel_format: String,

@@ -56,7 +56,6 @@ fn add_row_to_sums(values: &[f64], side: usize, sums: &mut [f64]) {
     }
 }
 
-/// Sums the pixels of every region.
 fn pixel_sums(plane: &PaddedPlane, grid: &RegionGrid, sums: &mut Vec<f64>) {
     sums.clear();
     sums.resize(grid.regions(), 0.0);
@@ -65,7 +64,6 @@ fn pixel_sums(plane: &PaddedPlane, grid: &RegionGrid, sums: &mut Vec<f64>) {
     }
 }
 
-/// Returns n, the number of pixels of a region.
 fn pixels_per_region(grid: &RegionGrid) -> f64 {
     let side = f64::from(u32::try_from(grid.side).expect("a region is at most 64 pixels wide"));
     side * side

@@ -6,7 +6,6 @@ use crate::whole_frames::{KeptScreen, KeptScreens};
 use askama::Template;
 use foveate_pictures::page::PageError;
 
-/// The box of a detection in a frame.
 struct DetectionBox {
     /// The fate of the detection, as a CSS class and in words: `kept`, `lost` or `added`.
     class: &'static str,

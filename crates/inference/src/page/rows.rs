@@ -15,7 +15,6 @@ use foveate_pictures::page::number_text::real_number;
 use foveate_pictures::page::{SortableTable, TableCell, TableColumn, TableRow};
 use std::collections::BTreeMap;
 
-/// The rows of a table, and the text of the mark of each row.
 pub(super) struct TableRows {
     columns: Vec<TableColumn>,
     rows: Vec<TableRow>,

@@ -18,7 +18,6 @@ use foveate_network::vision::{
 /// The network on whole frames, and its agreement with the network behind the camera.
 pub(crate) struct WholeFrameComparison<'a> {
     vision_network: &'a VisionNetwork,
-    /// The network that runs on whole frames.
     whole_frame_network: VisionRun<'a>,
     sums: AgreementSums,
     noise: NoiseComparison,

@@ -98,7 +98,6 @@ impl ReceiverTally {
         self.squared_error += squared_error;
     }
 
-    /// Returns the mean number of bytes of some frames.
     #[allow(clippy::cast_precision_loss, reason = "a mean")]
     pub(super) fn mean_bytes(&self, sent: SentCount) -> f64 {
         self.camera.bits_sent(sent.frames, sent.values) as f64 / 8.0 / sent.frames.max(1) as f64

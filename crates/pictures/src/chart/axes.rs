@@ -60,7 +60,6 @@ fn whole_labels(last: f64) -> u8 {
     positive_labels.last().unwrap_or(0) + 1
 }
 
-/// Draws the grid with labels on it.
 pub(crate) fn draw_grid<DB: DrawingBackend, X: Ranged<ValueType = f64> + ValueFormatter<f64>>(
     chart: &Chart,
     context: &mut AxesContext<'_, DB, X>,

@@ -30,7 +30,6 @@ impl Default for ActivityChart {
 impl ActivityChart {
     /// The height of the bars in dots.
     const BAR_DOTS: u32 = 28;
-    /// The height with the line of text above the bars, in dots.
     pub(super) const HEIGHT_DOTS: u32 = LINE_DOTS + Self::BAR_DOTS;
     /// The upper ends of the scale, in permille. The smallest one that no bar passes is taken.
     const SCALES: [u64; 7] = [10, 20, 50, 100, 200, 500, 1000];

@@ -29,7 +29,6 @@ const DOTS_ACROSS: u32 = 220;
 /// The width that a legend needs, in dots.
 const LEGEND_DOTS: u32 = 150;
 
-/// The layout of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct PictureLayout {
     /// The number of pixels of the picture per pixel of the frame, along each side.

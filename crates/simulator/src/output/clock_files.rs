@@ -18,7 +18,6 @@ use super::parquet_file::ParquetFile;
 use super::sink::SinkFrame;
 use crate::SimulatorError;
 
-/// The types of the columns.
 const COLUMN_TYPES: [ColumnType; ClockRow::COLUMNS.len()] = [
     ColumnType::Text,
     ColumnType::Long,
@@ -174,7 +173,6 @@ fn long_value(number: u64) -> TableValue<'static> {
     TableValue::Long(number.cast_signed())
 }
 
-/// Returns a number as a value of a column of that type.
 fn typed_value(number: u64, kind: ColumnType) -> TableValue<'static> {
     match kind {
         ColumnType::Int => {

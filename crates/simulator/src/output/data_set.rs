@@ -42,7 +42,6 @@ impl DataSetPaths {
     }
 }
 
-/// Returns the sinks that write the data set.
 pub(super) fn data_set_sinks(
     folder: &Path,
     form: &SetForm,

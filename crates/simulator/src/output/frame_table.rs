@@ -11,7 +11,6 @@ use super::csv::CsvFile;
 use super::summary::SentCounts;
 use crate::SimulatorError;
 
-/// A row of the table.
 pub(super) struct FrameRow<'a> {
     pub(super) frame: u64,
     pub(super) time_us: u64,

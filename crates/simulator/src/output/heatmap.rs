@@ -13,7 +13,6 @@ use super::canvas::{LINE_DOTS, PictureCanvas, PictureLayout, TEXT, TEXT_DOTS, te
 use super::picture_series::PicturePainter;
 use super::sink::SinkFrame;
 
-/// The number of steps of the scale.
 const SCALE_STEPS: u64 = 256;
 
 /// The painter of the maps of one score.
@@ -34,7 +33,6 @@ enum MappedScore {
 }
 
 impl HeatmapPainter {
-    /// Returns a map with its name for every score of a camera.
     pub(super) fn all_maps(camera: &Camera) -> Vec<(String, Self)> {
         let n = u64::from(camera.region_pixels());
         let spatial = camera.features().iter().enumerate().map(|(index, feature)| Self {

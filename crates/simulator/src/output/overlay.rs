@@ -137,7 +137,6 @@ fn draw_pixels(
     }
 }
 
-/// Returns the area of every region, with its number.
 fn region_areas(
     camera: &Camera,
     layout: PictureLayout,
@@ -161,7 +160,6 @@ fn draw_sent(canvas: &mut PictureCanvas, shown: &OverlayFrame<'_>, layout: Pictu
     }
 }
 
-/// Returns the colour of a pixel of a region with an action.
 fn shade(grey: u8, action: RegionAction) -> Colour {
     match action {
         RegionAction::Forward => [grey; 3],

@@ -22,7 +22,6 @@ pub(super) struct ParquetFile {
 }
 
 impl ParquetFile {
-    /// Creates the file. `message` is the name of its rows.
     pub(super) fn create(
         path: &Path,
         message: &str,

@@ -23,7 +23,6 @@ pub(super) trait PicturePainter: Send {
 /// The height of the largest legend and chart below a painted frame in pixels.
 const MAX_FOOTER_HEIGHT: u32 = 320;
 
-/// The files of a series.
 enum SeriesFiles {
     Folder(PngSeries),
     Video(VideoFile),

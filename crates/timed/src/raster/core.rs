@@ -25,7 +25,6 @@ pub(crate) struct RasterCore {
     next_pass: u64,
     /// The clocks of the decisions of the last frame, region by region.
     decisions: Vec<u64>,
-    /// The number of that frame.
     decided_frame: u64,
     /// The number of decisions of the last frame that were yielded.
     decided: usize,

@@ -32,7 +32,6 @@ pub(super) struct SendingRegion {
     /// The number of the row of regions since reset.
     pub(super) row: u64,
     pub(super) kind: SentKind,
-    /// The number of its words.
     pub(super) words: u32,
     /// The edge at which it enters the queue.
     pub(super) entered: u64,

@@ -13,7 +13,6 @@ use crate::payload::KeptPixels;
 use crate::timed_core::{CoreContext, CoreFrame, TimedCore};
 use crate::{BeatOffer, SentValues};
 
-/// A serial array.
 #[derive(Debug)]
 pub(crate) struct SerialCore {
     intake: IntakeClocks,

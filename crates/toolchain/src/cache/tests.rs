@@ -127,7 +127,6 @@ fn a_throw_away_cache_goes_away() {
     assert!(!path.exists());
 }
 
-/// Returns a build that writes this number of bytes.
 fn build_of_size(bytes: usize) -> impl FnOnce(&Path) -> Result<(), ToolError> {
     move |dir| fs::write(dir.join("file"), vec![7; bytes]).map_err(ToolError::io("write", dir))
 }

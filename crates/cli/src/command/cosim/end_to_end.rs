@@ -41,7 +41,6 @@ impl EndToEndFolder {
         Ok(Self(StagedFolder::new(folder, END_TO_END, true)?))
     }
 
-    /// Returns the path of the packets.
     pub(super) fn packets(&self) -> PathBuf {
         self.0.folder().join(PACKETS)
     }

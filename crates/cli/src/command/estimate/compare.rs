@@ -100,7 +100,6 @@ fn rows_of(base: &DesignConfig, organization: Organization) -> Vec<PlannedRow> {
     list
 }
 
-/// Returns the features that are compared in an organization with a filter.
 fn compared_features(organization: Organization, filter: DenoiseFilter) -> Vec<FeatureKind> {
     match filter {
         DenoiseFilter::None | DenoiseFilter::Median3x3 => organization.feature_kinds(),

@@ -24,7 +24,6 @@ const ARRAY_ARGUMENTS: [&str; 7] =
 /// The arguments that are valid for a check, too.
 const CHECK_ARGUMENTS: [&str; 5] = ["network", "check", "json", "resize", "threads"];
 
-/// Runs the network on arrays.
 pub(super) fn run_arrays(
     args: &InferArgs,
     words: &[OsString],
@@ -89,7 +88,6 @@ fn refuse_other_arguments(
     }
 }
 
-/// Returns a count in millions.
 #[allow(clippy::cast_precision_loss, reason = "one digit is shown")]
 fn millions(count: u64) -> String {
     format!("{:.1} M", count as f64 / 1e6)

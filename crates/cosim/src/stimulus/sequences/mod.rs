@@ -41,7 +41,6 @@ pub(super) struct FrameSequence {
 }
 
 impl FrameSequence {
-    /// Returns the number of frames.
     pub(super) fn frame_count(&self) -> usize {
         if self.deliveries.is_empty() { self.patterns.len() } else { self.deliveries.len() }
     }

@@ -41,7 +41,6 @@ pub(crate) fn parse_numbers<const N: usize>(
     Ok(values)
 }
 
-/// Returns an error about a record, with the number of its line.
 pub(crate) fn error_in_line(path: &Path, record: &StringRecord, problem: String) -> BoxError {
     match record.position().map(|place| line_of(path, place)) {
         Some(Ok(line)) => BoxError::Line { path: path.to_owned(), line, problem },

@@ -27,7 +27,6 @@ pub(super) struct FrameComponent {
     pub(super) sent: [Option<u8>; 64],
 }
 
-/// The header of a frame.
 pub(super) struct FrameHeader {
     pub(super) process: CodingProcess,
     /// The numbers of units across and down in an interleaved scan.

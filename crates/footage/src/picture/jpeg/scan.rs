@@ -16,7 +16,6 @@ pub(super) struct HuffmanTables {
     pub(super) interval: u32,
 }
 
-/// A component in a scan.
 struct ScanComponent {
     /// The index of the component in the frame.
     component: usize,
@@ -24,7 +23,6 @@ struct ScanComponent {
     ac: usize,
 }
 
-/// The header of a scan.
 pub(super) struct ScanHeader {
     parts: Vec<ScanComponent>,
     band: SpectralBand,
@@ -113,7 +111,6 @@ impl ScanHeader {
         bits.end_run()
     }
 
-    /// Follows the blocks of one unit.
     fn follow_unit(
         &self,
         frame: &mut FrameHeader,

@@ -17,7 +17,6 @@ use foveate_frame::convert_depth;
 
 const BITS: u32 = 8;
 
-/// Returns one sink for each file.
 pub(super) fn idx_sinks(
     folder: &Path,
     images: &IdxFile,

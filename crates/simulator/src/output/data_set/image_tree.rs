@@ -16,7 +16,6 @@ use super::super::raw_image::RawImage;
 use super::super::sink::{FrameSink, SinkFrame};
 use crate::SimulatorError;
 
-/// The name of the folder of images.
 pub(super) const FOLDER: &str = "images";
 
 /// The naming of the new files.
