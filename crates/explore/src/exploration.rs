@@ -59,7 +59,11 @@ impl Exploration {
     /// Returns the fronts that have a point, each by rising error.
     #[must_use]
     pub fn fronts(&self) -> Vec<DesignFront<'_>> {
-        let FrontObjectives { area, .. } = self.front_objectives();
+        let FrontObjectives { speed, area, .. } = self.front_objectives();
+        let speed = match speed {
+            Objective::PerClock => "Error against frames per clock",
+            _ => "Error against frames per second",
+        };
         let area = match area {
             Objective::Mm2 => "Error against mm²",
             _ => "Error against share of the device",
@@ -69,7 +73,7 @@ impl Exploration {
         };
         let mut fronts = vec![
             front(("area", area), |front| front.area),
-            front(("speed", "Error against frames per second"), |front| front.speed),
+            front(("speed", speed), |front| front.speed),
             front(("energy", "Error against energy"), |front| front.energy),
         ];
         fronts.retain(|front| !front.rows.is_empty());

@@ -3,13 +3,15 @@
 //! configurations and one page.
 
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 use foveate_design::Design;
 use foveate_files::tables::{NamedCells, Table};
 use foveate_playback::RunHooks;
+use foveate_staging::StagingError;
 
 use crate::exploration_work::ExplorationWork;
-use crate::folder::{MARK_FILE, UNFINISHED_MARK, claim_folder, open_continued, write_mark};
+use crate::folder::{MARK_FILE, UNFINISHED_MARK, claim_folder, open_continued, replace_mark};
 use crate::link_load::LoadMeasurement;
 use crate::measure::CameraMeasurement;
 use crate::objective::mark_fronts;
@@ -24,6 +26,8 @@ const POINTS: &str = "points.csv";
 const POINTS_PARQUET: &str = "points.parquet";
 const CLIPS: &str = "clips.csv";
 const REPORT: &str = "report.html";
+/// The time of a batch of syntheses after which the files are written again.
+const NEWS_AFTER: Duration = Duration::from_secs(1);
 const TABLES: [&str; 4] = [POINTS, POINTS_PARQUET, CLIPS, REPORT];
 
 /// Runs an exploration and writes `output`. Finished results are kept there, so an interrupted run
@@ -46,14 +50,20 @@ pub fn explore(
     let names: Vec<String> = names.chain([MARK_FILE.to_owned()]).collect();
     open_continued(output)?.check_files(names.iter().map(String::as_str))?;
     claim_folder(output)?;
-    write_mark(output, UNFINISHED_MARK)?;
+    let was_complete = replace_mark(output)?;
     let store = MeasurementStore::open(output)?;
     let mut results = PointResults::measure(request, &work, &store)?;
     if let Some(own) = request.synthesis {
         let synthesis = PointSynthesis::new(own, &work.footage, &store, hooks);
+        // The tables of an earlier run stay as long as all areas come from the cache.
+        let mut has_news = !was_complete;
         while results.unsynthesized() > 0 {
-            results.write(&results.exploration(request, &work), &work, output)?;
+            if has_news {
+                results.write_so_far(request, &work, output)?;
+            }
+            let begin = Instant::now();
             synthesis.synthesize_next(&results.designs, &mut results.synthesized)?;
+            has_news |= begin.elapsed() > NEWS_AFTER;
         }
     }
     let exploration = results.exploration(request, &work);
@@ -155,6 +165,19 @@ impl PointResults {
             refused: work.refused.clone(),
             problems,
             awaited_areas: self.unsynthesized(),
+        }
+    }
+
+    /// Writes what is known so far, unless somebody has changed a file, which only the last write reports.
+    fn write_so_far(
+        &self,
+        request: &ExploreRequest<'_>,
+        work: &ExplorationWork<'_>,
+        output: &Path,
+    ) -> Result<(), ExploreError> {
+        match self.write(&self.exploration(request, work), work, output) {
+            Err(ExploreError::Output(StagingError::UnlistedFiles { .. })) => Ok(()),
+            result => result,
         }
     }
 

@@ -48,7 +48,15 @@ pub(crate) fn open_continued(output: &Path) -> Result<ContinuedFolder, ExploreEr
     Ok(folder)
 }
 
-/// Writes the description of the exploration.
-pub(crate) fn write_mark(output: &Path, text: &str) -> Result<(), ExploreError> {
+/// Marks the exploration as unfinished. Returns true if it was complete.
+pub(crate) fn replace_mark(output: &Path) -> Result<bool, ExploreError> {
+    let path = output.join(MARK_FILE);
+    let old = foveate_reading::read_bytes(&path, UNFINISHED_MARK.len() as u64);
+    write_mark(output, UNFINISHED_MARK)?;
+    // A complete description is longer than the mark.
+    Ok(old.is_err())
+}
+
+fn write_mark(output: &Path, text: &str) -> Result<(), ExploreError> {
     Ok(write_file(&output.join(MARK_FILE), text.as_bytes())?)
 }

@@ -54,10 +54,10 @@ impl Objective {
             Self::Error => Some(row.figures.action_flips),
             Self::Speed => row.speed.map(|speed| speed.frames_per_second),
             Self::PerClock => Some(1.0 / count_to_f64(row.clocks_per_frame)),
-            Self::DeviceShare => row.device_share(),
+            Self::DeviceShare => row.device_share,
             Self::Mm2 => row.process.as_ref().and_then(|process| process.mm2),
             Self::Energy => row.energy().map(|energy| energy.nj_per_region),
-            Self::Stale => Some(row.figures.staleness.share),
+            Self::Stale => Some(row.figures.stale_regions),
             Self::Bytes => Some(row.bytes_per_frame),
             Self::Ssim => Some(row.figures.ssim_ideal),
         }
@@ -139,13 +139,7 @@ mod tests {
             let mhz = f64::from(chance.u32(1..4));
             row.speed =
                 (chance.u8(0..5) > 0).then(|| FrameRate::at_given_clock(mhz, row.clocks_per_frame));
-            match &mut row.silicon {
-                Some(silicon) if chance.u8(0..5) > 0 => {
-                    silicon.array.lut_total_packed = chance.u64(1..12);
-                    silicon.array.bram18 = chance.u64(0..3);
-                }
-                silicon => *silicon = None,
-            }
+            row.device_share = (chance.u8(0..5) > 0).then(|| f64::from(chance.u32(1..12)));
             row.process = (chance.u8(0..5) > 0).then(|| ProcessFigures {
                 library: "cells".to_owned(),
                 unit_um2: 1.0,
@@ -186,21 +180,9 @@ mod tests {
             let mut rows = points(seed);
             mark_fronts(&mut rows, has_process);
             let pace = |row: &DesignRow| row.speed.map(|speed| -speed.frames_per_second);
-            let area = |row: &DesignRow| match (has_process, &row.silicon, &row.process) {
-                (true, _, process) => process.as_ref()?.mm2,
-                (false, None, _) => None,
-                (false, Some(silicon), _) => {
-                    let [luts, blocks] = [silicon.array.lut_total_packed, silicon.array.bram18];
-                    let [flip_flops, dsps] = [silicon.array.ff, silicon.array.dsp];
-                    let [luts, blocks, flip_flops, dsps] =
-                        [luts, blocks, flip_flops, dsps].map(count_to_f64);
-                    Some(
-                        luts / 1_182_240.0
-                            + blocks / 4320.0
-                            + dsps / 6840.0
-                            + flip_flops / 236_448_000.0,
-                    )
-                }
+            let area = |row: &DesignRow| match has_process {
+                true => row.process.as_ref()?.mm2,
+                false => row.device_share,
             };
             let energy = |row: &DesignRow| Some(row.process.as_ref()?.energy?.nj_per_region);
             let [pace, small, frugal] =
@@ -212,7 +194,7 @@ mod tests {
                 assert_eq!(row.front, expected, "seed {seed}, {has_process}: {row:?}");
                 told_apart[0] += usize::from(speed != area);
                 told_apart[1] += usize::from(area != energy);
-                unknown += usize::from(row.silicon.is_none() && speed);
+                unknown += usize::from(row.device_share.is_none() && speed);
             }
         }
         // Without many such points the test would not notice if two fronts were swapped.

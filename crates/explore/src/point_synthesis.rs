@@ -85,12 +85,13 @@ impl<'a> PointSynthesis<'a> {
         found: &mut SynthesizedPoints,
     ) -> Result<(), ExploreError> {
         let first = found.points.len();
-        let hooks =
-            PartHooks { hooks: self.hooks, before: first as u64, all: designs.len() as u64 };
+        let all = designs.len();
         let at_once = (2 * rayon::current_num_threads()).max(8).max(designs.len().div_ceil(16));
-        let designs = &designs[first..designs.len().min(first + at_once)];
+        let designs = &designs[first..all.min(first + at_once)];
+        let hooks = PartHooks { hooks: self.hooks, first, count: designs.len(), all };
         let mut errors = Vec::new();
         found.points.extend(self.synthesize(designs, &hooks, &mut errors)?);
+        errors.sort_by_key(|(index, _)| *index);
         let problem = |(index, error)| format!("point {}: {error}", first + index + 1);
         found.problems.extend(errors.into_iter().map(problem));
         Ok(())
@@ -167,18 +168,20 @@ fn problems_of<T: Send + Clone>(results: &ResultsByRtl<T>) -> Vec<(usize, String
     errors.filter_map(|(index, result)| Some((index, result.err()?.to_string()))).collect()
 }
 
-/// The hooks of a part of the steps of a run, which reports progress as a part of all steps.
+/// The hooks of some of all designs, which report progress as a number of all designs.
 struct PartHooks<'a> {
     hooks: &'a dyn RunHooks,
-    /// The number of steps before this part.
-    before: u64,
-    all: u64,
+    /// The number of designs before these.
+    first: usize,
+    count: usize,
+    all: usize,
 }
 
 impl RunHooks for PartHooks<'_> {
     fn progress(&self, part: &RunProgress<'_>) {
-        let (done, total) = (self.before + part.done, part.total.map(|_| self.all));
-        self.hooks.progress(&RunProgress { done, total, ..part.clone() });
+        let [first, count, all] = [self.first, self.count, self.all].map(|number| number as u64);
+        let done = part.total.map_or(part.done, |total| first + part.done * count / total.max(1));
+        self.hooks.progress(&RunProgress { done, total: part.total.map(|_| all), ..part.clone() });
     }
 
     fn is_cancelled(&self) -> bool {

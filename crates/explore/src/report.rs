@@ -113,7 +113,11 @@ pub(crate) fn render_page(exploration: &Exploration) -> Result<String, ExploreEr
         |error: askama::Error| PageError { page: title.clone(), problem: error.to_string() };
     let awaited = (exploration.awaited_areas > 0).then(|| {
         let (awaited, all) = (exploration.awaited_areas, exploration.rows.len());
-        format!("The areas of {awaited} of {all} designs are not known yet. This page is written again as they arrive.")
+        format!(
+            "The areas of {awaited} of {all} designs are not known yet: the front and the plot of area, and those of \
+             frames per second, are about the others. The page is written again as areas arrive; after an interrupt \
+             the same command goes on."
+        )
     });
     let page = ResultPage {
         kind: "Exploration",
@@ -121,7 +125,7 @@ pub(crate) fn render_page(exploration: &Exploration) -> Result<String, ExploreEr
         title: &title,
         notices: &[
             PageNotice { title: "Not complete", lines: &exploration.problems },
-            PageNotice { title: "Still running", lines: awaited.as_slice() },
+            PageNotice { title: "Not finished", lines: awaited.as_slice() },
         ],
         facts: &summary::facts(exploration),
         about: &about.render().map_err(failed)?,

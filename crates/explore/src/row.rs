@@ -44,6 +44,8 @@ pub struct DesignRow {
     pub speed: Option<FrameRate>,
     /// The area, if it was synthesized.
     pub silicon: Option<DesignArea>,
+    /// The share of the device that the array takes, 0..=1, as [`fit`](crate::fit) counts it; `None` without an area.
+    pub device_share: Option<f64>,
     /// The cost in the process, if there is one and the design was mapped to it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub process: Option<ProcessFigures>,
@@ -129,6 +131,7 @@ impl DesignRow {
             bytes_per_frame: bytes_per_frame(design, &figures),
             clocks_per_frame,
             speed,
+            device_share: fpga.as_ref().map(|fpga| FpgaDevice::xcvu9p().cost(&fpga.silicon.array)),
             silicon: fpga.map(|fpga| fpga.silicon),
             process,
             figures,
@@ -143,13 +146,6 @@ impl DesignRow {
     #[must_use]
     pub fn qualifies(&self) -> bool {
         self.figures.missed <= MAX_DECISION_ERROR && self.figures.false_alarms <= MAX_DECISION_ERROR
-    }
-
-    /// Returns the share of the device that the array takes, 0..=1, as [`fit`](crate::fit) counts it; `None` without
-    /// an area.
-    #[must_use]
-    pub fn device_share(&self) -> Option<f64> {
-        self.silicon.as_ref().map(|silicon| FpgaDevice::xcvu9p().cost(&silicon.array))
     }
 
     /// Returns the measured energy in the process, if there is one.

@@ -40,7 +40,7 @@ pub(crate) fn point_cells(row: &DesignRow, axes: &[String]) -> NamedCells {
             ("lutram", of(|area| area.array.lut_memory_packed)),
             ("ramb36", TableCell::Real(area.map(|area| count_to_f64(area.array.bram18) / 2.0))),
             ("dsp", of(|area| area.array.dsp)),
-            ("device_share", TableCell::Real(row.device_share())),
+            ("device_share", TableCell::Real(row.device_share)),
             ("logic_levels", of(|area| area.logic_levels.into())),
             ("front_speed", TableCell::Flag(row.front.speed)),
             ("front_area", TableCell::Flag(row.front.area)),

@@ -10,7 +10,7 @@
     marks.forEach(function (mark) {
       var group = Number(mark.dataset.g.split(' ')[axis]);
       var best = mark.classList.contains('best');
-      mark.setAttribute('class', 'mark k' + (group >= 2 * colours ? colours : group % colours) + (best ? ' best' : ''));
+      mark.setAttribute('class', 'mark k' + (group >= 2 * colours ? colours : group % colours) + (best ? ' best' : '') + (mark.classList.contains('hollow') ? ' hollow' : ''));
       var box = group >= colours ? group !== 2 * colours : false;
       mark.setAttribute('href', '#' + (best ? 'front-' : 'all-') + (box ? 'box' : 'dot'));
     });

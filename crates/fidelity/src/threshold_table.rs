@@ -37,20 +37,19 @@ pub struct DecisionLimits {
     pub missed: Option<f64>,
     /// The largest share of the candidate's active area that is not active in the ideal.
     pub false_alarms: Option<f64>,
-    /// True if of two cameras well within the limits the one that is active more is nearer.
-    pub prefers_active: bool,
+    /// The distance up to which of two cameras the one that is active more is nearer, if there is one.
+    pub prefers_active_below: Option<f64>,
 }
 
 impl DecisionLimits {
-    /// Returns the largest ratio of a rate and its limit. A limit of 0 is far from every other rate. With
-    /// [`Self::prefers_active`] it is the negative share of the area that is `active`, if that ratio is low.
+    /// Returns the largest ratio of a rate and its limit. A limit of 0 is far from every other rate. Up to
+    /// [`Self::prefers_active_below`] it is the negative share of the area that is `active`.
     #[must_use]
     pub fn distance(&self, [flips, missed, false_alarms]: [f64; 3], active: f64) -> f64 {
-        const LOW: f64 = 0.8;
         let ratio = |limit: Option<f64>, rate: f64| limit.map_or(0.0, |limit| ratio(rate, limit));
         let most = ratio(self.flips, flips).max(ratio(self.missed, missed));
         let most = most.max(ratio(self.false_alarms, false_alarms));
-        if self.prefers_active && most <= LOW { -active } else { most }
+        if self.prefers_active_below.is_some_and(|bound| most <= bound) { -active } else { most }
     }
 }
 

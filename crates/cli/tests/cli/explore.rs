@@ -27,7 +27,7 @@ fn a_space_becomes_a_folder_and_a_rerun_gives_the_same() {
     let printed = run_successfully(dir.path(), &RUN);
     assert!(printed.starts_with("4 designs"), "{printed}");
     assert!(
-        printed.contains("1 combinations cannot be built, for example hardware.fold = 2: "),
+        printed.contains("1 combination cannot be built, for example hardware.fold = 2: "),
         "{printed}"
     );
     let before = files_below(&dir.path().join("out"));

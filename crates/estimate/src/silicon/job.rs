@@ -25,28 +25,24 @@ pub struct SiliconJob {
     pub design: EstimateJob,
     /// The pixels of a region along one side.
     pub region_size: u32,
-    /// The module whose leaves are listed.
-    pub leaves_of: String,
+    /// The module whose leaves are listed, if they are.
+    pub leaves_of: Option<String>,
     /// The largest memory in bits that becomes flip-flops.
     pub memory_limit: u64,
 }
 
 impl SiliconJob {
-    /// Makes the job of a design's freshly generated Verilog.
+    /// Makes the job of a design's freshly generated Verilog. With `leaves` it lists the modules of the unit, too.
     #[must_use]
-    pub fn for_design(design: &Design, memory_limit: u64) -> Self {
-        Self::for_array(EstimateJob::for_design(design, Top::Rcm), design, memory_limit)
+    pub fn for_design(design: &Design, memory_limit: u64, leaves: bool) -> Self {
+        let job = Self::for_array(EstimateJob::for_design(design, Top::Rcm), design, memory_limit);
+        Self { leaves_of: leaves.then(|| design.unit().area_module.to_owned()), ..job }
     }
 
     /// Makes the job of a design whose Verilog is there.
     #[must_use]
     pub fn for_array(array: EstimateJob, design: &Design, memory_limit: u64) -> Self {
-        Self {
-            design: array,
-            region_size: design.region_size(),
-            leaves_of: design.unit().area_module.to_owned(),
-            memory_limit,
-        }
+        Self { design: array, region_size: design.region_size(), leaves_of: None, memory_limit }
     }
 }
 
@@ -67,8 +63,14 @@ pub fn map_to_silicon(
     let mapped = map_array(toolchain, cache, synthesis, library, job.memory_limit)?;
     let unit_kinds = job.design.units(&mapped.netlist, synthesis)?;
     let (unit, shared) = unit_and_shared_cells(&mapped, &unit_kinds, &synthesis.array, library)?;
-    let within = (job.leaves_of.as_str(), job.memory_limit);
-    let leaves = map_leaves(toolchain, cache, &job.design.synthesis, library, within)?;
+    let leaves = match &job.leaves_of {
+        None => Vec::new(),
+        Some(top) => {
+            let within = (top.as_str(), job.memory_limit);
+            let netlist = map_leaves(toolchain, cache, &job.design.synthesis, library, within)?;
+            list_leaves(&netlist, library, top)?
+        }
+    };
     let units = job.design.units;
     let array = TimedArray {
         mapped: &mapped,
@@ -99,7 +101,7 @@ pub fn map_to_silicon(
         unit: UnitFigures { name: job.design.unit_name.clone(), count: units, cells: unit },
         shared,
         array: shared.plus(unit, units),
-        leaves: list_leaves(&leaves, library, &job.leaves_of)?,
+        leaves,
         memory_limit: job.memory_limit,
         memory: MemoryTotals::of_memories(&memories),
         memories,

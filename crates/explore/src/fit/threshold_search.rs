@@ -29,6 +29,8 @@ const LEVEL_CHANGES: [f64; 4] = [0.7, 0.88, 1.14, 1.4];
 const EARLY_ENDS: [f64; 3] = [0.15, 0.3, 0.6];
 /// The distance from the limits above which a camera is given up.
 const HOPELESS: f64 = 4.0;
+/// The distance up to which minima that send more are tried, if objects are counted.
+const WELL_WITHIN: f64 = 0.6;
 /// The number of minima of a run, and of thresholds of a camera, that are compared with a margin.
 const MAX_ALTERNATIVES: usize = 8;
 
@@ -77,7 +79,7 @@ impl<'a> ThresholdSearch<'a> {
             missed: max_missed,
             false_alarms: max_false_alarms,
             // What is sent more can only hold more objects.
-            prefers_active: constraints.min_recall.is_some(),
+            prefers_active_below: constraints.min_recall.map(|_| 1.0),
         };
         Self { frames, constraints, limits, compared: 0 }
     }
@@ -162,7 +164,12 @@ impl<'a> ThresholdSearch<'a> {
     /// compared.
     fn nearest(&self, run: &ThresholdRun) -> (Vec<ThresholdChoice>, usize) {
         let sides = (self.frames.ideal.region_size(), run.camera.region_size());
-        let (found, compared) = run.nearest(&self.limits, MAX_ALTERNATIVES);
+        let within = |bound| DecisionLimits { prefers_active_below: bound, ..self.limits };
+        let (mut found, compared) = run.nearest(&within(None), MAX_ALTERNATIVES);
+        if self.limits.prefers_active_below.is_some() {
+            // The rates to expect of other frames are larger.
+            found.extend(run.nearest(&within(Some(WELL_WITHIN)), MAX_ALTERNATIVES).0);
+        }
         let judged = |(config, decisions): (CameraConfig, DecisionGroups)| {
             let rates = decisions.rates(sides);
             let all = [rates.flips, rates.missed, rates.false_alarms];
@@ -181,6 +188,7 @@ impl<'a> ThresholdSearch<'a> {
         };
         let mut nearest: Vec<ThresholdChoice> = found.into_iter().map(judged).collect();
         nearest.sort_by(|one, other| one.distance.total_cmp(&other.distance));
+        nearest.dedup_by(|one, other| one.config == other.config);
         (nearest, compared)
     }
 }

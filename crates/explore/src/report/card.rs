@@ -49,8 +49,8 @@ impl PointCard {
             (
                 "Stale",
                 format!(
-                    "{} of the relevant regions; by up to {} grey levels, for up to {} frames",
-                    share(figures.staleness.share),
+                    "{} of the relevant regions; the scene by up to {} grey levels, for up to {} frames",
+                    share(figures.stale_regions),
                     real_number(figures.staleness.max, 0),
                     grouped(figures.staleness.longest)
                 ),
@@ -118,7 +118,7 @@ impl DesignRow {
             Some(speed) => speed.text(),
             None => format!("{} clocks per frame", grouped(self.clocks_per_frame)),
         };
-        let share = self.silicon.as_ref().zip(self.device_share()).map(|(silicon, share)| {
+        let share = self.silicon.as_ref().zip(self.device_share).map(|(silicon, share)| {
             let area = &silicon.array;
             let blocks = match area.bram18 {
                 0 => String::new(),

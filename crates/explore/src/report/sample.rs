@@ -68,6 +68,7 @@ pub(crate) fn sample_exploration(space: &str, areas: bool) -> Exploration {
                 array: area(1.0),
                 logic_levels: 9,
             }),
+            device_share: areas.then(|| luts / 1_182_240.0),
             process: None,
             worst_clip: Some(WorstClip { name: "hall.mp4".to_owned(), action_flips: 1.5 * flips }),
             load: None,
@@ -135,7 +136,7 @@ fn figures(flips: f64, bits: f64, active: f64) -> FidelityFigures {
         psnr_input: Some(18.0 + 1.4 * bits),
         ssim_ideal: 1.0 - flips,
         ssim_input: 0.7 + bits / 50.0,
-        stale_regions: 0.01,
+        stale_regions: flips * 0.9,
         staleness: Staleness {
             max: 30.0,
             mean: 0.4 + flips * 20.0,

@@ -81,6 +81,7 @@ fn clock(exploration: &Exploration) -> HeadingFigure {
                 if is_limited { "the highest of the cells" } else { "estimated for each design" },
             )
         }
+        (None, None) if exploration.awaited_areas > 0 => (MISSING.to_owned(), "not known yet"),
         (None, None) => (MISSING.to_owned(), "not known without synthesis"),
     };
     HeadingFigure { name: "Clock", value, note: note.to_owned() }
@@ -91,8 +92,8 @@ pub(crate) fn findings(exploration: &Exploration) -> Vec<String> {
     let useless = exploration.rows.iter().filter(|row| !row.qualifies()).count();
     let useless = (useless > 0).then(|| {
         format!(
-            "{} of {} miss more than 10 % of the active regions or have more than 10 % false alarms. Plots show them \
-             hollow, and they are on no front.",
+            "On no front, and hollow in the plots: {} of {} with more than 10 % of the active regions missed or more \
+             than 10 % false alarms.",
             grouped(useless as u64),
             counted(exploration.rows.len(), "design")
         )

@@ -141,7 +141,7 @@ fn the_nearest_minima_of_one_feature_are_the_best_of_all() {
         flips: Some(0.02),
         missed: Some(0.1),
         false_alarms: Some(0.1),
-        prefers_active: false,
+        prefers_active_below: None,
     };
     let (found, compared) = table.nearest(vec![3, 0], &limits, 3);
     assert_eq!((found.len(), compared), (3, 1 + 4 * 5));
@@ -167,7 +167,7 @@ fn a_limit_of_nothing_is_far_from_every_rate_but_nothing() {
         flips: Some(0.0),
         missed: Some(0.1),
         false_alarms: None,
-        prefers_active: false,
+        prefers_active_below: None,
     };
     assert_eq!(limits.distance([0.0, 0.05, 0.9], 0.2), 0.5);
     assert!(limits.distance([1e-9, 0.0, 0.0], 0.2) > 1.0);
@@ -179,8 +179,11 @@ fn the_nearest_minima_may_be_those_that_send_most() {
     let ideal = config(SIZE, 8, 8);
     let steps = MinimumSteps { counts: COUNTS.to_vec(), scores: vec![vec![1, 2, 5, 8, 13]] };
     let table = table(&ideal, &candidate(8, 4, &[FeatureKind::Edge]), steps);
-    let limits =
-        DecisionLimits { flips: Some(0.5), prefers_active: true, ..DecisionLimits::default() };
+    let limits = DecisionLimits {
+        flips: Some(0.5),
+        prefers_active_below: Some(0.8),
+        ..DecisionLimits::default()
+    };
     let (found, _) = table.nearest(vec![3, 0], &limits, 20);
     let figures = found.iter().map(|minima| {
         let mut sum = DecisionAreas::default();

@@ -34,7 +34,7 @@ pub(super) fn run(args: &EstimateArgs, flow: &SynthesisTools) -> Result<(), CliE
         Some(energy) => energy.design().clone(),
         None => args.design.design()?,
     };
-    let job = SiliconJob::for_design(&design, args.memory_limit);
+    let job = SiliconJob::for_design(&design, args.memory_limit, args.modules || args.json);
     let libraries = args.liberty.iter().map(|path| read_library(path));
     let libraries: Vec<_> = libraries.collect::<Result<_, _>>()?;
     if args.netlist.is_some() && libraries.len() > 1 {
@@ -107,13 +107,12 @@ fn print_reports(args: &EstimateArgs, reports: &[ProcessReport]) -> Result<(), C
     }
     let width = output::text_width();
     let render = |ProcessReport { silicon, energy }: &ProcessReport| {
-        let (mut silicon, energy) = (silicon.clone(), energy.as_ref());
-        silicon.leaves.retain(|_| args.modules);
+        let energy = energy.as_ref();
         let (silicon, energy) = match args.markdown {
-            true => (render_silicon_markdown(&silicon), energy.map(render_energy_markdown)),
+            true => (render_silicon_markdown(silicon), energy.map(render_energy_markdown)),
             false => {
                 let energy = energy.map(|energy| render_energy_text(energy, width));
-                (render_silicon_text(&silicon, width), energy)
+                (render_silicon_text(silicon, width), energy)
             }
         };
         std::iter::once(silicon).chain(energy).collect::<Vec<_>>().join("\n")

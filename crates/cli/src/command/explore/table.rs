@@ -42,7 +42,7 @@ const COLUMNS: [PointColumn; 25] = [
     ("LUT/FF/mem", unit_cell),
     ("array LUT", array_cell),
     ("device %", |row| {
-        row.device_share().map_or_else(String::new, |share| format!("{:.3}", 100.0 * share))
+        row.device_share.map_or_else(String::new, |share| format!("{:.3}", 100.0 * share))
     }),
     ("unit um2", |row| {
         row.process.as_ref().map_or_else(String::new, |process| format!("{:.0}", process.unit_um2))
@@ -117,12 +117,17 @@ const NOTE: &str = "flips, SRS, TRS: regions whose decision differs from that of
 const PROCESS_NOTE: &str = "unit um2, mm2, nJ/region, mW: in the cells of the process; they are lower bounds. MHz is \
      not above the highest clock of the cells.";
 
+fn counted(count: usize, one: &str) -> String {
+    format!("{count} {one}{}", if count == 1 { "" } else { "s" })
+}
+
 pub(super) fn markdown(found: &Exploration) -> String {
     let columns = measured_columns(found);
     let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
     let mut text = format!("| | {} |\n|{}\n", names.join(" | "), " --- |".repeat(names.len() + 1));
     for row in &found.rows {
-        let cells: Vec<String> = columns.iter().map(|(_, cell)| cell(row)).collect();
+        let cells = columns.iter().map(|(_, cell)| cell(row).replace('|', "\\|"));
+        let cells: Vec<String> = cells.collect();
         let _ = writeln!(
             text,
             "| {} | {} |",
@@ -141,10 +146,10 @@ pub(super) fn markdown(found: &Exploration) -> String {
 /// points.
 pub(super) fn text(folder: &Path, found: &Exploration, width: usize) -> String {
     let useless = found.rows.iter().filter(|row| !row.qualifies()).count();
-    let mut text = format!("{} designs", found.rows.len());
+    let mut text = counted(found.rows.len(), "design");
     if useless > 0 {
         text += &format!(
-            "; {useless} of them miss more than 10 % of the active regions or have more than 10 % false alarms, and are on no front"
+            "; on no front: {useless} with more than 10 % of the active regions missed or more than 10 % false alarms"
         );
     }
     text = textwrap::fill(&(text + "."), width) + "\n";
@@ -171,8 +176,8 @@ pub(super) fn text(folder: &Path, found: &Exploration, width: usize) -> String {
     }
     if let Some(first) = found.refused.first() {
         let refused = format!(
-            "{} combinations cannot be built, for example {}: {}.",
-            found.refused.len(),
+            "{} cannot be built, for example {}: {}.",
+            counted(found.refused.len(), "combination"),
             first.settings,
             first.reason
         );
