@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The results of an exploration as data: for the JSON file next to the tables, and for the page.
 
+use foveate_pictures::page::number_text::{counted, grouped};
 use serde::Serialize;
 
 use crate::objective::{FrontObjectives, Objective};
@@ -78,6 +79,30 @@ impl Exploration {
         ];
         fronts.retain(|front| !front.rows.is_empty());
         fronts
+    }
+
+    /// Returns a sentence about the designs that are on no front whatever their figures, and one about the combinations
+    /// that cannot be built, if there are any.
+    #[must_use]
+    pub fn findings(&self) -> Vec<String> {
+        let useless = self.rows.iter().filter(|row| !row.qualifies()).count();
+        let useless = (useless > 0).then(|| {
+            format!(
+                "On no front, and hollow in the plots: {} of {} with more than 10 % of the active regions missed or \
+                 more than 10 % false alarms.",
+                grouped(useless as u64),
+                counted(self.rows.len(), "design")
+            )
+        });
+        let refused = self.refused.first().map(|first| {
+            format!(
+                "{} cannot be built, for example {}: {}. All reasons are in exploration.json.",
+                counted(self.refused.len(), "combination"),
+                first.settings,
+                first.reason
+            )
+        });
+        useless.into_iter().chain(refused).collect()
     }
 
     /// Returns the settings of a point as `key = value`.

@@ -7,6 +7,7 @@ use std::collections::BTreeMap;
 use foveate_design::Design;
 use foveate_estimate::SiliconReport;
 use foveate_playback::{PlaybackError, RunHooks, RunProgress};
+use foveate_toolchain::Interrupt;
 
 use crate::cost::{ResultsByRtl, SynthesisResult};
 use crate::footage::ExplorationFootage;
@@ -186,5 +187,9 @@ impl RunHooks for PartHooks<'_> {
 
     fn is_cancelled(&self) -> bool {
         self.hooks.is_cancelled()
+    }
+
+    fn interrupt(&self) -> Interrupt {
+        self.hooks.interrupt()
     }
 }

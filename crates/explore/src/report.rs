@@ -88,7 +88,7 @@ pub(crate) fn render_page(exploration: &Exploration) -> Result<String, ExploreEr
         clip_names: summary::clips(exploration),
         camera: setting::camera_line(&exploration.ideal),
         ideal: exploration.ideal.trim_end(),
-        findings: summary::findings(exploration),
+        findings: exploration.findings(),
     };
     let main = MainSections {
         groupings,

@@ -294,7 +294,7 @@ fn a_camera_in_the_network_that_is_silent_is_not_waited_for() {
         ),
         (format!("echo '[tcp @ 0x1] [error] {lost}' >&2"), 0, [lost, "can be reached from here"]),
         (String::new(), 15, ["it has sent nothing for 15 s", "it sends no pictures"]),
-        // What ffmpeg says meanwhile is no picture.
+        // The lines that ffmpeg prints meanwhile are no pictures.
         (
             "(for _ in 1 2 3 4 5 6; do sleep 4; echo '[info] Input #0' >&2; done) &".to_owned(),
             15,

@@ -32,11 +32,16 @@ pub struct SiliconJob {
 }
 
 impl SiliconJob {
-    /// Makes the job of a design's freshly generated Verilog. With `leaves` it lists the modules of the unit, too.
+    /// Makes the job of a design's freshly generated Verilog.
     #[must_use]
-    pub fn for_design(design: &Design, memory_limit: u64, leaves: bool) -> Self {
-        let job = Self::for_array(EstimateJob::for_design(design, Top::Rcm), design, memory_limit);
-        Self { leaves_of: leaves.then(|| design.unit().area_module.to_owned()), ..job }
+    pub fn for_design(design: &Design, memory_limit: u64) -> Self {
+        Self::for_array(EstimateJob::for_design(design, Top::Rcm), design, memory_limit)
+    }
+
+    /// Adds the list of the separate modules of the unit, as [`EstimateJob::with_leaves`] does.
+    #[must_use]
+    pub fn with_leaves(self, design: &Design) -> Self {
+        Self { leaves_of: Some(design.unit().area_module.to_owned()), ..self }
     }
 
     /// Makes the job of a design whose Verilog is there.

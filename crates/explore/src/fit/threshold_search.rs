@@ -78,7 +78,7 @@ impl<'a> ThresholdSearch<'a> {
             flips: max_flips,
             missed: max_missed,
             false_alarms: max_false_alarms,
-            // What is sent more can only hold more objects.
+            // A camera that sends more regions can only send more objects.
             prefers_active_below: constraints.min_recall.map(|_| 1.0),
         };
         Self { frames, constraints, limits, compared: 0 }

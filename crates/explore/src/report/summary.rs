@@ -86,25 +86,3 @@ fn clock(exploration: &Exploration) -> HeadingFigure {
     };
     HeadingFigure { name: "Clock", value, note: note.to_owned() }
 }
-
-/// Says what is on no front and what could not be built.
-pub(crate) fn findings(exploration: &Exploration) -> Vec<String> {
-    let useless = exploration.rows.iter().filter(|row| !row.qualifies()).count();
-    let useless = (useless > 0).then(|| {
-        format!(
-            "On no front, and hollow in the plots: {} of {} with more than 10 % of the active regions missed or more \
-             than 10 % false alarms.",
-            grouped(useless as u64),
-            counted(exploration.rows.len(), "design")
-        )
-    });
-    let refused = exploration.refused.first().map(|first| {
-        format!(
-            "{} cannot be built, for example {}: {}. All reasons are in exploration.json.",
-            counted(exploration.refused.len(), "combination"),
-            first.settings,
-            first.reason
-        )
-    });
-    useless.into_iter().chain(refused).collect()
-}

@@ -37,7 +37,7 @@ fn row<'a>(found: &'a DisturbedDesign, source: &str) -> &'a ErrorSourceRow {
 const FRAMES: u32 = 16;
 const TASK: &str = "frame = { width = 96, height = 64 }\nspatial = [{ feature = 'edge' }, { feature = 'mad' }]\n\
      temporal.reference = 'last-sent'\n";
-/// What the design has in place of the task's bits, windows, filter, level and minimum of `edge`, minimum and
+/// The values of the design in place of the task's bits, windows, filter, level and minimum of `edge`, minimum and
 /// fraction bits of `mad`, level, count and reference.
 const DESIGN: [&str; 10] = ["5", "isolated", "none", "11", "6", "0.7", "0", "2", "4", "'previous'"];
 

@@ -34,7 +34,8 @@ pub(super) fn run(args: &EstimateArgs, flow: &SynthesisTools) -> Result<(), CliE
         Some(energy) => energy.design().clone(),
         None => args.design.design()?,
     };
-    let job = SiliconJob::for_design(&design, args.memory_limit, args.modules || args.json);
+    let job = SiliconJob::for_design(&design, args.memory_limit);
+    let job = if args.modules || args.json { job.with_leaves(&design) } else { job };
     let libraries = args.liberty.iter().map(|path| read_library(path));
     let libraries: Vec<_> = libraries.collect::<Result<_, _>>()?;
     if args.netlist.is_some() && libraries.len() > 1 {

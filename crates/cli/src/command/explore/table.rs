@@ -117,10 +117,6 @@ const NOTE: &str = "flips, SRS, TRS: regions whose decision differs from that of
 const PROCESS_NOTE: &str = "unit um2, mm2, nJ/region, mW: in the cells of the process; they are lower bounds. MHz is \
      not above the highest clock of the cells.";
 
-fn counted(count: usize, one: &str) -> String {
-    format!("{count} {one}{}", if count == 1 { "" } else { "s" })
-}
-
 pub(super) fn markdown(found: &Exploration) -> String {
     let columns = measured_columns(found);
     let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
@@ -145,14 +141,11 @@ pub(super) fn markdown(found: &Exploration) -> String {
 /// Returns a short text: at most eight points of every front with a line that generates each, and the files with all
 /// points.
 pub(super) fn text(folder: &Path, found: &Exploration, width: usize) -> String {
-    let useless = found.rows.iter().filter(|row| !row.qualifies()).count();
-    let mut text = counted(found.rows.len(), "design");
-    if useless > 0 {
-        text += &format!(
-            "; on no front: {useless} with more than 10 % of the active regions missed or more than 10 % false alarms"
-        );
+    let plural = if found.rows.len() == 1 { "" } else { "s" };
+    let mut text = format!("{} design{plural}\n", found.rows.len());
+    for finding in found.findings() {
+        let _ = writeln!(text, "{}", textwrap::fill(&finding, width));
     }
-    text = textwrap::fill(&(text + "."), width) + "\n";
     let mut seen = BTreeSet::new();
     for front in found.fronts() {
         let _ = writeln!(text, "\n{}: {} on the front", front.title, front.rows.len());
@@ -173,15 +166,6 @@ pub(super) fn text(folder: &Path, found: &Exploration, width: usize) -> String {
             let design = shell_word(&design);
             let _ = writeln!(text, "  foveate generate --config {design} -o core-{}", row.number);
         }
-    }
-    if let Some(first) = found.refused.first() {
-        let refused = format!(
-            "{} cannot be built, for example {}: {}.",
-            counted(found.refused.len(), "combination"),
-            first.settings,
-            first.reason
-        );
-        let _ = writeln!(text, "\n{}", textwrap::fill(&refused, width));
     }
     let _ = writeln!(
         text,
