@@ -15,7 +15,7 @@ case ${1:-} in
 esac
 tools=$(scripts/python_tools.sh --events)
 FOVEATE=$(scripts/checks/foveate.sh)
-cargo build --locked --quiet --package foveate-eventfiles --example events_as_csv
+cargo build --locked --quiet --package foveate-media --example events_as_csv
 READER=$(realpath "${CARGO_TARGET_DIR:-target}/debug/examples/events_as_csv")
 export FOVEATE READER
 exec "$tools/python" scripts/checks/event_readers.py "$@"

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Builds the engine of the live page: web/foveate.wasm from crates/web, and web/sources.sha256, which lists its sources. Both are
-# committed, so that `cargo install` needs no target for WebAssembly. A test of crates/web fails if the sources have changed.
+# Builds the engine of the live page: web/foveate.wasm from web/engine, and web/sources.sha256, which lists its sources. Both are
+# committed, so that `cargo install` needs no target for WebAssembly. A test of web/engine fails if the sources have changed.
 #
 #   scripts/web.sh           builds
 #   scripts/web.sh --test    compares the committed file with the native program, frame by frame, in Chromium

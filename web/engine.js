@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The engine of foveate.wasm for a page. Only this file uses its exports (crates/web/src/exports.rs).
+// The engine of foveate.wasm for a page. Only this file uses its exports (engine/src/exports.rs).
 //
 //   const engine = await Engine.load(bytes);             // an ArrayBuffer of foveate.wasm
 //   const camera = engine.configure(toml, width, height);

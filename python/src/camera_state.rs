@@ -3,9 +3,10 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 
-use foveate_design::{DesignConfig, RegionClass};
+use foveate_camera::RegionClass;
+use foveate_design::DesignConfig;
 use foveate_engine::{Engine, EngineError, EngineOptions};
-use foveate_frame::ByteFrame;
+use foveate_pixels::ByteFrame;
 use foveate_simulator::SentValues;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;

@@ -5,8 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
 use foveate_design::DesignConfig;
-use foveate_footage::InputOptions;
-use foveate_playback::RunMonitor;
+use foveate_media::{InputOptions, RunMonitor};
 use foveate_timed::TimedClip;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

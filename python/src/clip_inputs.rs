@@ -4,12 +4,12 @@
 use std::ffi::CString;
 use std::path::PathBuf;
 
-use foveate_design::CameraConfig;
-use foveate_footage::{
-    ClipPlan, InputOptions, InputWarnings, SourceKind, plan, skipped_in_words, source_from_memory,
+use foveate_camera::CameraConfig;
+use foveate_media::{
+    ClipPlan, ClipPlayer, InputOptions, InputWarnings, SourceKind, plan, skipped_in_words,
+    source_from_memory,
 };
-use foveate_frame::ByteFrame;
-use foveate_playback::ClipPlayer;
+use foveate_pixels::ByteFrame;
 use numpy::PyUntypedArrayMethods;
 use pyo3::exceptions::{PyTypeError, PyUserWarning};
 use pyo3::prelude::*;

@@ -4,8 +4,8 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use foveate_frame::FramePixels;
-use foveate_playback::{ClipPlayer, PlayedFrame, ProgressStage, RunProgress};
+use foveate_media::{ClipPlayer, PlayedFrame, ProgressStage, RunProgress};
+use foveate_pixels::FramePixels;
 use foveate_simulator::{PacketContent, PacketLayout, SentCounts, packet_bytes, packet_layout};
 use numpy::{Element, IntoPyArray, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Times of frames that are given one by one. They never decrease.
 
-use foveate_footage::FrameRate;
+use foveate_media::FrameRate;
 use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use foveate_design::{DesignConfig, PRESETS, Preset};
-use foveate_footage::read_class_map;
+use foveate_media::read_class_map;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyString};
@@ -65,7 +65,7 @@ fn toml_of(source: &Bound<'_, PyAny>) -> PyResult<String> {
             source.get_type().name()?,
         )));
     };
-    foveate_reading::read_settings(&path).map_err(|error| {
+    foveate_tools::read_settings(&path).map_err(|error| {
         let message = format!("cannot read the configuration `{}`: {error}", path.display());
         os_error(&error, message)
     })

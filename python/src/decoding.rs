@@ -4,7 +4,7 @@
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
-use foveate_frame::ByteFrame;
+use foveate_pixels::ByteFrame;
 use foveate_simulator::{PacketStream, ShownFrame, SimulatorError, StreamItem, StreamLoss};
 use numpy::{PyArray2, PyArray3, PyUntypedArray};
 use pyo3::exceptions::PyTypeError;

@@ -5,19 +5,16 @@ use std::error::Error;
 use std::io::{self, ErrorKind};
 use std::path::Path;
 
+use foveate_camera::ConfigError;
 use foveate_cosim::CosimError;
-use foveate_design::ConfigError;
 use foveate_engine::EngineError;
 use foveate_estimate::EstimateError;
 use foveate_explore::ExploreError;
-use foveate_footage::FootageError;
-use foveate_footage::boxes::BoxError;
 use foveate_inference::InferenceError;
-use foveate_playback::{InputError, PlaybackError};
+use foveate_media::{FootageError, InputError, PlaybackError, boxes::BoxError};
 use foveate_simulator::SimulatorError;
-use foveate_staging::StagingError;
 use foveate_timed::TimedError;
-use foveate_toolchain::ToolError as Tool;
+use foveate_tools::{StagingError, ToolError as Tool};
 use pyo3::exceptions::{
     PyFileExistsError, PyFileNotFoundError, PyIsADirectoryError, PyKeyboardInterrupt,
     PyNotADirectoryError, PyOSError, PyPermissionError, PyRuntimeError, PyValueError,

@@ -4,8 +4,8 @@
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use foveate_engine::Engine;
-use foveate_frame::{ByteFrame, FramePixels};
-use foveate_playback::{ClipPlayer, PlaybackError, PlayedFrame};
+use foveate_media::{ClipPlayer, PlaybackError, PlayedFrame};
+use foveate_pixels::{ByteFrame, FramePixels};
 use foveate_simulator::SentValues;
 use numpy::ndarray::Axis;
 use numpy::{
@@ -275,7 +275,7 @@ pub(crate) fn luma<'py>(
     let view = array.as_array();
     let grey = py.detach(|| {
         view.map_axis(Axis(2), |colour| {
-            let grey = foveate_frame::luma(colour[0].into(), colour[1].into(), colour[2].into());
+            let grey = foveate_pixels::luma(colour[0].into(), colour[1].into(), colour[2].into());
             u8::try_from(grey).expect("the weights sum to 256")
         })
     });

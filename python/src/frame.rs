@@ -2,7 +2,7 @@
 //! Frames from Python: arrays of any layout. Rows whose pixels are adjacent are read in place.
 
 use foveate_design::DesignConfig;
-use foveate_frame::ByteFrame;
+use foveate_pixels::ByteFrame;
 use numpy::ndarray::ArrayView2;
 use numpy::{
     Element, PyArrayDescrMethods, PyArrayMethods, PyReadonlyArray2, PyUntypedArray,

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use foveate_design::RegionClass;
+use foveate_camera::RegionClass;
 use foveate_engine::FrameOutcome;
 use foveate_simulator::{
     DecidedRegion, DecisionExplanation, FrameStart, PacketContent, SentCounts, SentValues,

@@ -4,13 +4,12 @@
 use std::num::NonZeroU32;
 use std::path::PathBuf;
 
-use foveate_footage::source_from_memory;
 use foveate_inference::{
     Computation, Inference, InferenceOptions, NOISE_LEVELS, PixelMapping, RecordOptions,
     VisionOptions, parse_detector, parse_framing, parse_goal, parse_mode, parse_noise,
     read_accelerator,
 };
-use foveate_playback::PlaybackError;
+use foveate_media::{PlaybackError, source_from_memory};
 use pyo3::exceptions::{PyIsADirectoryError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

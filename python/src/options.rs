@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Options by name: which of them a function has, and which one was probably meant by an unknown name.
 
-use foveate_footage::{
+use foveate_media::{
     BayerPattern, CropRect, FrameRate, ImageRelation, InputOptions, InputWarnings, LumaRange,
     Orientation, RawLayout, TimestampUnit, TimestampsFile, parse_time,
 };
@@ -120,11 +120,11 @@ fn set(found: &mut InputOptions, name: &str, value: &Bound<'_, PyAny>) -> PyResu
         }
         "resize" => {
             let size = value.extract().ok().filter(|&(width, height): &(u32, u32)| {
-                let sides = 1..=foveate_footage::MAX_SIDE;
+                let sides = 1..=foveate_media::MAX_SIDE;
                 sides.contains(&width) && sides.contains(&height)
             });
             found.resize = Some(size.ok_or_else(|| {
-                wrong(format!("expected (width, height), each 1 to {}", foveate_footage::MAX_SIDE))
+                wrong(format!("expected (width, height), each 1 to {}", foveate_media::MAX_SIDE))
             })?);
         }
         "luma" => {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Pictures for notebooks.
 
-use foveate_frame::{convert_depth, display_depth};
-use foveate_pictures::palette::{ACTIVE, CHANGED, RELEVANT};
+use foveate_output::palette::{ACTIVE, CHANGED, RELEVANT};
+use foveate_pixels::{convert_depth, display_depth};
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 use pyo3::exceptions::PyValueError;

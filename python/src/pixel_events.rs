@@ -4,9 +4,9 @@
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 
-use foveate_design::{Decimal, DesignConfig};
-use foveate_footage::InputOptions;
-use foveate_playback::RunMonitor;
+use foveate_camera::Decimal;
+use foveate_design::DesignConfig;
+use foveate_media::{InputOptions, RunMonitor};
 use foveate_simulator::{PixelCamera, PixelEventOptions};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::{PyTypeError, PyValueError};

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The results of all regions of a frame as arrays, which are made when they are first read and own their memory.
 
-use foveate_design::{Design, RegionAction};
+use foveate_camera::RegionAction;
+use foveate_design::Design;
 use foveate_engine::FrameOutcome;
-use foveate_frame::FramePixels;
+use foveate_pixels::FramePixels;
 use numpy::{Element, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyUntypedArray};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;

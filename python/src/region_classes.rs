@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Maps of classes from Python: arrays of codes.
 
-use foveate_design::RegionClass;
+use foveate_camera::RegionClass;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 

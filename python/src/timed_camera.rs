@@ -4,7 +4,7 @@
 use std::sync::{Mutex, MutexGuard};
 
 use foveate_design::DesignConfig;
-use foveate_frame::FramePixels;
+use foveate_pixels::FramePixels;
 use foveate_timed::{TimedClip, TimedError};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use foveate_cosim::write_core;
 use foveate_emit::{Prefix, Top};
 use foveate_estimate::{EstimateJob, render_text};
-use foveate_toolchain::{Cache, Toolchain};
+use foveate_tools::{Cache, Toolchain};
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

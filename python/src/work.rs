@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use foveate_playback::{RunHooks, RunProgress};
+use foveate_media::{RunHooks, RunProgress};
 use pyo3::prelude::*;
 
 /// The interval at which Python is asked for signals.

@@ -104,7 +104,7 @@ READERS = [
     ("evt3", "evt3", read_evt3, 4),
     ("expelliarmus", "evt2", read_expelliarmus("evt2"), 4), ("expelliarmus, without times", "evt3", read_expelliarmus("evt3"), 2),
     ("faery", "aedat4", read_faery, 4), ("aedat", "aedat4", read_aedat, 4), ("dv-processing", "aedat4", read_dv, 4),
-    ("foveate-eventfiles", "evt2", read_own, 4), ("foveate-eventfiles", "evt3", read_own, 4), ("foveate-eventfiles", "aedat4", read_own, 4),
+    ("foveate-media", "evt2", read_own, 4), ("foveate-media", "evt3", read_own, 4), ("foveate-media", "aedat4", read_own, 4),
 ]
 
 
@@ -140,7 +140,7 @@ def made_recordings(folder):
             other = folder / f"faery_{number}_{encoding}.raw"
             stream = faery.events_stream_from_file(event_file(output, encoding))
             stream.to_file(other, version=encoding, zero_t0=False)
-            wrong += compare(f"{name}, {encoding} of faery, foveate-eventfiles", read_own(other), expected)
+            wrong += compare(f"{name}, {encoding} of faery, foveate-media", read_own(other), expected)
         wrong += aedat4_of_others(folder, name, event_file(output, "aedat4"), expected)
     return wrong
 
@@ -152,10 +152,10 @@ def aedat4_of_others(folder, name, path, expected):
     for label, faery_compression, dv_compression in COMPRESSIONS:
         other = folder / "faery.aedat4"
         faery.events_stream_from_file(path).to_file(other, compression=faery_compression, zero_t0=False)
-        wrong += compare(f"{name}, AEDAT4 of faery, {label}, foveate-eventfiles", read_own(other), expected)
+        wrong += compare(f"{name}, AEDAT4 of faery, {label}, foveate-media", read_own(other), expected)
         other = folder / "dv.aedat4"
         write_dv(other, expected, size, dv_compression)
-        wrong += compare(f"{name}, AEDAT4 of dv-processing, {label}, foveate-eventfiles", read_own(other), expected)
+        wrong += compare(f"{name}, AEDAT4 of dv-processing, {label}, foveate-media", read_own(other), expected)
     return wrong
 
 

@@ -193,7 +193,7 @@ def page_texts(source):
 
 def sources():
     """Yields each file that may hold texts, with the function that finds them."""
-    for folder in [*sorted(ROOT.glob("crates/*/src")), ROOT / "python/src"]:
+    for folder in [*sorted(ROOT.glob("crates/*/src")), ROOT / "python/src", ROOT / "web/engine/src"]:
         yield from ((file, lambda source: RustReader().read(source)) for file in rust_files(folder))
     yield from ((file, python_texts) for file in sorted(ROOT.glob("python/foveate/**/*.py")))
     for folder in [ROOT / "web", *sorted(ROOT.glob("crates/*/src")), *sorted(ROOT.glob("crates/*/templates"))]:

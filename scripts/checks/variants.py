@@ -35,7 +35,7 @@ FEATURE_QUESTION = re.compile(
     r"|\b(?:entry|spatial|feature)\.level\.is_(?:some|none)\(\)"
 )
 # Files whose code is about one variant by purpose.
-OWN_PURPOSE = {"crates/studies/src/study/histogram.rs": "the study is about mad"}
+OWN_PURPOSE = {"crates/explore/src/studies/study/histogram.rs": "the study is about mad"}
 # A constant such as FeatureKind::ALL is not a variant.
 CONSTANT = re.compile(r"::[A-Z][A-Z_]+\b")
 
@@ -114,7 +114,7 @@ def variant_tests(text):
 def main():
     """Prints each place. The exit code is 1 if there is one."""
     count = 0
-    for file in sorted(ROOT.glob("crates/**/*.rs")) + sorted(ROOT.glob("python/src/**/*.rs")):
+    for file in sorted(ROOT.glob("crates/**/*.rs")) + sorted(ROOT.glob("python/src/**/*.rs")) + sorted(ROOT.glob("web/engine/src/**/*.rs")):
         path = file.relative_to(ROOT).as_posix()
         if TESTS.search(path) or path in OWN_PURPOSE:
             continue

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Compares the cycles of systolic arrays in crates/accelerator with those of SCALE-Sim 3.0, layer by layer, as a table in Markdown.
+"""Compares the cycles of systolic arrays in crates/network with those of SCALE-Sim 3.0, layer by layer, as a table in Markdown.
 
     compare_scalesim.py [NAME...] [--arrays ROWSxCOLUMNS...] [--dataflows ws os] [--crop]
 
@@ -102,7 +102,7 @@ def model_cycles(layers, rows, columns, dataflow):
         topology = os.path.join(folder, "topology.csv")
         with open(topology, "w") as file:
             file.write(topology_text(layers))
-        command = ["cargo", "run", "--quiet", "--locked", "-p", "foveate-accelerator", "--example", "cycles", "--"]
+        command = ["cargo", "run", "--quiet", "--locked", "-p", "foveate-network", "--example", "cycles", "--"]
         run = subprocess.run([*command, dataflow, str(rows), str(columns), topology], cwd=ROOT, check=True, capture_output=True, text=True)
     return {name: int(cycles) for name, cycles in csv.reader(run.stdout.splitlines())}
 

@@ -5,13 +5,11 @@
 use std::borrow::Cow;
 
 use askama::Template;
-use foveate_design::{
-    Design, FeatureKind, Payload, PipelinedDesign, PipelinedTiming, PortRole, RegionAction,
-    bits_for, index_bits,
-};
+use foveate_camera::{FeatureKind, Payload, RegionAction, bits_for, index_bits};
+use foveate_design::{Design, PipelinedDesign, PipelinedTiming, PortRole};
 use foveate_emit::array_scores;
 use foveate_engine::Engine;
-use foveate_toolchain::escaping::comment_text;
+use foveate_tools::escaping::comment_text;
 
 use crate::pattern::pattern_frame;
 use crate::project::BoardProject;

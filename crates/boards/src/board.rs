@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use foveate_design::{DesignConfig, Preset};
-use foveate_toolchain::escaping::message_excerpt;
+use foveate_tools::escaping::message_excerpt;
 use serde::Deserialize;
 
 use crate::sensor::LogicLevel;
@@ -202,7 +202,7 @@ impl Board {
     pub fn find(name: &str) -> Result<Self, BoardError> {
         let path = Path::new(name);
         if path.extension().is_some_and(|extension| extension == "toml") {
-            let text = foveate_reading::read_settings(path)
+            let text = foveate_tools::read_settings(path)
                 .map_err(|source| BoardError::Read { path: path.to_owned(), source })?;
             let stem = path.file_stem().unwrap_or_default().to_string_lossy();
             return Self::read(&stem, &text, path.parent().unwrap_or(Path::new("")));

@@ -5,8 +5,9 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-use foveate_staging::{ContinuedFolder, FolderKind, StagedFolder, StagingError};
-use foveate_toolchain::{Invocation, ToolError, Toolchain};
+use foveate_tools::{
+    ContinuedFolder, FolderKind, Invocation, StagedFolder, StagingError, ToolError, Toolchain,
+};
 use serde::Serialize;
 use serde_json::Value;
 

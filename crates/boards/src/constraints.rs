@@ -2,7 +2,7 @@
 //! The pins and clocks of a board, in the format of its tools.
 
 use foveate_emit::SourceFile;
-use foveate_toolchain::escaping::tcl_word;
+use foveate_tools::escaping::tcl_word;
 
 use crate::board::DeviceFamily;
 use crate::project::{BoardProject, PortPin};

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The check that a design fits a board, behind a sensor or a pattern.
 
-use foveate_design::{
-    Design, Hardware, InterfaceKind, Neighborhood, PipelinedDesign, RasterDesign,
-};
+use foveate_camera::Neighborhood;
+use foveate_design::{Design, Hardware, InterfaceKind, PipelinedDesign, RasterDesign};
 
 use crate::sensor::Sensor;
 

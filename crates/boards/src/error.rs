@@ -3,9 +3,8 @@
 
 use std::path::PathBuf;
 
-use foveate_design::ConfigError;
-use foveate_staging::StagingError;
-use foveate_toolchain::ToolError;
+use foveate_camera::ConfigError;
+use foveate_tools::{StagingError, ToolError};
 use thiserror::Error;
 
 /// An error that prevents a project or a bitstream.

@@ -5,7 +5,7 @@
 //!
 //! A [`Board`] and a [`Sensor`] are files of data. A [`BoardProject`] is a design on a board:
 //! Verilog, pins, and the script that [`build`](fn@build) runs. `docs/boards.md` describes the
-//! modules around the core.
+//! modules around the core. [`view`] shows what a board sends.
 
 mod array;
 mod board;
@@ -23,6 +23,7 @@ mod sensor;
 mod text;
 mod text_forms;
 mod top;
+pub mod view;
 
 pub use board::{Board, BoardClock, BoardDevice, BoardLeds, DeviceFamily, SensorPins, SerialLine};
 pub use build::{BuildResult, CellUse, PROJECT_FOLDER, build, write_project};

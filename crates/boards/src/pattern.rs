@@ -3,8 +3,8 @@
 
 use foveate_design::Design;
 use foveate_engine::Engine;
-use foveate_frame::ByteFrame;
 use foveate_packets::PacketLayout;
+use foveate_pixels::ByteFrame;
 use foveate_simulator::write_packets;
 
 /// The number of frames whose sums are compared on a board.

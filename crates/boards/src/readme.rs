@@ -4,7 +4,7 @@
 use std::borrow::Cow;
 
 use askama::Template;
-use foveate_toolchain::escaping::markdown_text;
+use foveate_tools::escaping::markdown_text;
 
 use crate::pattern::COMPARED_FRAMES;
 use crate::project::{BoardProject, PortPin};

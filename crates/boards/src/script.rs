@@ -5,7 +5,7 @@ use std::borrow::Cow;
 
 use askama::Template;
 use foveate_emit::SourceFile;
-use foveate_toolchain::escaping::{comment_text, shell_word, tcl_word};
+use foveate_tools::escaping::{comment_text, shell_word, tcl_word};
 
 use crate::board::{Board, DeviceFamily};
 use crate::constraints;

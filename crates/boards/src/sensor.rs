@@ -4,7 +4,7 @@
 
 use std::path::Path;
 
-use foveate_toolchain::escaping::message_excerpt;
+use foveate_tools::escaping::message_excerpt;
 use serde::Deserialize;
 
 use crate::{BoardError, text_forms};
@@ -142,7 +142,7 @@ impl Sensor {
     pub fn find(name: &str, folder: &Path) -> Result<Self, BoardError> {
         if name.ends_with(".toml") {
             let path = folder.join(name);
-            let text = foveate_reading::read_settings(&path)
+            let text = foveate_tools::read_settings(&path)
                 .map_err(|source| BoardError::Read { path, source })?;
             return Self::from_toml(name, &text);
         }

@@ -3,7 +3,7 @@
 //! each text must be a plain word. The keys that need other characters are listed with the form of
 //! their text. A key that is not listed, as one that is added later, takes only a plain word.
 
-use foveate_toolchain::escaping::{is_hidden, message_excerpt};
+use foveate_tools::escaping::{is_hidden, message_excerpt};
 use toml::{Table, Value};
 
 /// The largest number of characters of a word.

@@ -4,11 +4,12 @@
 use std::borrow::Cow;
 
 use askama::Template;
-use foveate_design::{Hardware, PipelinedDesign, RasterDesign, index_bits};
+use foveate_camera::index_bits;
+use foveate_design::{Hardware, PipelinedDesign, RasterDesign};
 use foveate_emit::{
     BOARD_LEAVES, LEAVES, Leaf, SourceFile, Top as CoreTop, array_registers, axi_modules, verilog,
 };
-use foveate_toolchain::escaping::comment_text;
+use foveate_tools::escaping::comment_text;
 
 use crate::array;
 use crate::board::SensorPins;

@@ -35,9 +35,10 @@ use std::sync::OnceLock;
 use clap::builder::RangedI64ValueParser;
 use clap::{Args, Parser, Subcommand, ValueEnum, value_parser};
 use clap_complete::Shell;
-use foveate_design::{ConfigError, Design, DesignConfig, Preset};
+use foveate_camera::ConfigError;
+use foveate_design::{Design, DesignConfig, Preset};
 use foveate_estimate::{ROUTE_DEVICES, RouteDevice};
-use foveate_footage::read_class_map;
+use foveate_media::read_class_map;
 
 use self::input::InputArgs;
 use self::threads::ThreadArgs;
@@ -181,12 +182,12 @@ fn named(file: &Path) -> PathBuf {
 fn settings(file: &Path) -> std::io::Result<String> {
     static STANDARD_INPUT: OnceLock<String> = OnceLock::new();
     if file != Path::new("-") {
-        return foveate_reading::read_settings(file);
+        return foveate_tools::read_settings(file);
     }
     if let Some(text) = STANDARD_INPUT.get() {
         return Ok(text.clone());
     }
-    let text = foveate_reading::settings_from(std::io::stdin().lock())?;
+    let text = foveate_tools::settings_from(std::io::stdin().lock())?;
     Ok(STANDARD_INPUT.get_or_init(|| text).clone())
 }
 

@@ -3,22 +3,16 @@
 
 use std::path::{Path, PathBuf};
 
-use foveate_boards::BoardError;
-use foveate_cosim::CosimError;
-use foveate_design::ConfigError;
+use foveate_boards::{BoardError, view::ViewError};
+use foveate_camera::ConfigError;
+use foveate_cosim::{CosimError, EnergyError};
 use foveate_emit::EmitError;
-use foveate_energy::EnergyError;
 use foveate_estimate::{EstimateError, SiliconError};
-use foveate_explore::ExploreError;
-use foveate_footage::FootageError;
+use foveate_explore::{ExploreError, link::LinkError, studies::StudyError};
 use foveate_inference::InferenceError;
-use foveate_link::LinkError;
-use foveate_playback::PlaybackError;
+use foveate_media::{FootageError, PlaybackError};
 use foveate_simulator::SimulatorError;
-use foveate_staging::StagingError;
-use foveate_studies::StudyError;
-use foveate_toolchain::ToolError;
-use foveate_view::ViewError;
+use foveate_tools::{StagingError, ToolError};
 use thiserror::Error;
 
 use crate::interrupt::{self, SignalError};

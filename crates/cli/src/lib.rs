@@ -22,8 +22,8 @@ use std::ffi::OsString;
 
 use args::{Cli, Command};
 use clap::{CommandFactory, FromArgMatches};
-use foveate_footage::InputWarnings;
-use foveate_toolchain::end_all_process_families;
+use foveate_media::InputWarnings;
+use foveate_tools::end_all_process_families;
 
 /// Runs the command with these words, of which the first is its name, and returns its exit code.
 /// The process listens for signals from then on, so this is for processes that do nothing else.

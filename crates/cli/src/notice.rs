@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{self, Write};
 
-use foveate_footage::text_without_secrets;
+use foveate_media::text_without_secrets;
 
 /// Returns text that cannot control a terminal, even if it contains the name of a file, the message
 /// of a tool or data. Control characters are written out, such as `\u{1b}`, except tabs and ends of

@@ -12,7 +12,7 @@ use std::io::IsTerminal as _;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use foveate_playback::{ProgressStage, RunProgress, StageAmount};
+use foveate_media::{ProgressStage, RunProgress, StageAmount};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 use terminal_size::Width;
 

@@ -8,7 +8,7 @@
 use crate::error::CosimError;
 use crate::harness::render;
 use askama::Template;
-use foveate_toolchain::yosys;
+use foveate_tools::yosys;
 
 /// The text of the model of a DSP slice that multiplies.
 const DSP_MODEL: &str = include_str!("../tb/cells/dsp48e2.v");

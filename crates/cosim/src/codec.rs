@@ -2,7 +2,8 @@
 //! The conversion of a core's inputs and outputs to records.
 
 use crate::layout::RecordLayout;
-use foveate_design::{Design, FeatureKind, PortRole};
+use foveate_camera::FeatureKind;
+use foveate_design::{Design, PortRole};
 use foveate_model::{CoreInput, CycleModel};
 
 /// A converter of the inputs of a core, and of the outputs of its model, to records.

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Errors of a co-simulation. A mismatch is a result and not an error.
 
-use foveate_design::ConfigError;
+use foveate_camera::ConfigError;
 use foveate_engine::EngineError;
-use foveate_frame::FrameError;
 use foveate_model::ModelError;
-use foveate_staging::{StagedFolder, StagingError};
+use foveate_pixels::FrameError;
 use foveate_timed::TimedError;
-use foveate_toolchain::ToolError;
+use foveate_tools::{StagedFolder, StagingError, ToolError};
 use std::path::{Path, PathBuf};
 
 /// The reason for which a co-simulation has no result.

@@ -10,10 +10,10 @@ use crate::replay::{self, ReplaySubject};
 use crate::report::{CosimReport, StepSeconds};
 use crate::simulation::{DesignUnderTest, SimulationOutcome, SimulationRun, Simulator};
 use crate::stimulus::Stimulus;
-use foveate_design::{ConfigError, Design};
+use foveate_camera::ConfigError;
+use foveate_design::Design;
 use foveate_emit::{Prefix, SourceFile, verilog};
-use foveate_toolchain::verilator::OptimizationLevel;
-use foveate_toolchain::{Cache, Source, Toolchain, sources_sha256};
+use foveate_tools::{Cache, Source, Toolchain, sources_sha256, verilator::OptimizationLevel};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 

@@ -2,7 +2,8 @@
 //! The part of the hardware that is simulated.
 
 use crate::hierarchy::declares;
-use foveate_design::{ArrayStructure, ConfigError, Design};
+use foveate_camera::ConfigError;
+use foveate_design::{ArrayStructure, Design};
 use foveate_emit::{Prefix, SourceFile, Top};
 use serde::{Deserialize, Serialize};
 use std::fmt;

@@ -19,6 +19,7 @@ mod comparison;
 mod core_activity;
 mod diagram;
 mod elaboration;
+mod energy;
 mod error;
 mod field;
 mod gate;
@@ -56,6 +57,10 @@ pub use codec::RecordCodec;
 pub use comparison::PortDifference;
 pub use diagram::timing_diagram;
 pub use elaboration::{UnelaboratedVariant, unelaborated_variants};
+pub use energy::{
+    ActivityClip, ENERGY_FORMAT_VERSION, EnergyError, EnergyJob, EnergyReport, PartEnergies,
+    StretchEnergy, measure_energy, render_energy_markdown, render_energy_text,
+};
 pub use error::CosimError;
 pub use field::RecordField;
 pub use gate::ComparisonGate;

@@ -10,9 +10,7 @@ use crate::cells::{cell_models, has_miswired_block_ram};
 use crate::error::CosimError;
 use foveate_design::{ArrayStructure, Design};
 use foveate_emit::{Prefix, Top};
-use foveate_toolchain::{
-    Cache, Source, SynthesisJob, ToolRecord, Toolchain, sources_sha256, yosys,
-};
+use foveate_tools::{Cache, Source, SynthesisJob, ToolRecord, Toolchain, sources_sha256, yosys};
 use serde::{Deserialize, Serialize};
 
 const NETLIST_FILE: &str = "netlist/netlist.v";

@@ -10,7 +10,7 @@ use crate::situations::{Occurrences, SituationMonitor};
 use crate::vector_packer::VectorPacker;
 use foveate_design::{Design, Port};
 use foveate_emit::Top;
-use foveate_staging::ScratchFolder;
+use foveate_tools::ScratchFolder;
 use std::fs::File;
 use std::io::{BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 use std::ops::Range;

@@ -7,8 +7,7 @@ use crate::mismatch::Mismatch;
 use crate::recording::{Recording, VECTORS_FILE};
 use crate::simulation::{DesignUnderTest, SimulationOutcome, SimulationRun, Simulator, WAVES_FILE};
 use askama::Template;
-use foveate_staging::{FolderKind, StagedFolder};
-use foveate_toolchain::escaping::shell_word;
+use foveate_tools::{FolderKind, StagedFolder, escaping::shell_word};
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -7,8 +7,10 @@ use crate::harness::{bench_file, bench_name, cpp_harness, replay_bench};
 use crate::recording::{ENDS_FILE, Recording, VECTORS_FILE};
 use foveate_design::Port;
 use foveate_emit::Parameter;
-use foveate_toolchain::verilator::{self, LintMode, OptimizationLevel, VerilatorJob};
-use foveate_toolchain::{Cache, Invocation, ProgramOutput, Source, Tool, Toolchain, iverilog};
+use foveate_tools::{
+    Cache, Invocation, ProgramOutput, Source, Tool, Toolchain, iverilog,
+    verilator::{self, LintMode, OptimizationLevel, VerilatorJob},
+};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::path::{Path, PathBuf};

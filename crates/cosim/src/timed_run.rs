@@ -10,7 +10,7 @@ use crate::error::CosimError;
 use crate::layout::RecordLayout;
 use crate::recording::{Recording, open_buffered};
 use crate::simulation::{DesignUnderTest, SimulationRun};
-use foveate_toolchain::{Tool, verilator};
+use foveate_tools::{Tool, verilator};
 use std::io::Read as _;
 use std::path::Path;
 use std::time::{Duration, Instant};

@@ -7,7 +7,7 @@ use std::sync::atomic::AtomicBool;
 
 use foveate_design::Design;
 use foveate_emit::{Prefix, Top};
-use foveate_staging::{FolderKind, StagedFolder};
+use foveate_tools::{FolderKind, StagedFolder};
 
 use crate::{CosimError, ShippedBench, timing_diagram};
 

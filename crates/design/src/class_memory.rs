@@ -3,8 +3,8 @@
 //! words and its ports.
 
 use crate::interface::{CoreStream, StreamRole};
-use crate::{Design, Hardware, Port, PortDirection, PortRole, index_bits};
-use foveate_camera::RegionClass;
+use crate::{Design, Hardware, Port, PortDirection, PortRole};
+use foveate_camera::{RegionClass, index_bits};
 
 /// Number of classes in a word of the map.
 pub const CLASSES_PER_WORD: u32 = 16;

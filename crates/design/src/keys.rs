@@ -6,8 +6,10 @@ use crate::{
     FrameStoreKind, InterfaceKind, LaneMemoryKind, Organization, Pipelining, PixelFeed,
     ThresholdSource,
 };
-use foveate_camera::AcceptedValues::{Names, Text};
-use foveate_camera::ConfigKey;
+use foveate_camera::{
+    AcceptedValues::{Names, Text},
+    ConfigKey,
+};
 
 /// Every key of `[hardware]`.
 pub(crate) const HARDWARE_KEYS: &[ConfigKey] = &[

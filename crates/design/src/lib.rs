@@ -36,15 +36,6 @@ pub use choice::{
 pub use class_memory::{CLASS_BITS, CLASS_WORD_BITS, CLASSES_PER_WORD, class_word};
 pub use config::DesignConfig;
 pub use design::Design;
-pub use foveate_camera::{
-    Camera, CameraConfig, ClassMapError, ClassThresholds, ConfigError, Decimal, DecisionConfig,
-    DenoiseConfig, DenoiseFilter, Displacement, FeatureKind, FrameConfig, IrrelevantRendering,
-    KeenConfig, KeenPeripheryConfig, KeenSpatialConfig, KeenTemporalConfig, MeanDivision,
-    Neighborhood, Payload, Periphery, PeripheryConfig, Reciprocal, ReferencePolicy,
-    ReferenceWriteTime, RegionAction, RegionClass, RegionConfig, RenderConfig, SUMMARY_BLOCKS,
-    ScoreUnit, SpatialConfig, SpatialFeature, TemporalConfig, TemporalParameters, VarianceWidths,
-    VoteCombination, Zones, ZonesConfig, bits_for, index_bits, mad_score_max,
-};
 pub use hardware::Hardware;
 pub use hardware_config::{HardwareConfig, OrganizationConfig, RasterConfig, SerialConfig};
 pub use hardware_view::{DesignWithHardware, PipelinedDesign, RasterDesign, SerialDesign};

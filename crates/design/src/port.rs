@@ -2,7 +2,8 @@
 //! The ports of an RPU or an RCM. The [`crate::CoreInterface`] of each organization is made of
 //! them.
 
-use crate::{Design, FeatureKind};
+use crate::Design;
+use foveate_camera::FeatureKind;
 
 /// The direction of a port, seen from the core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -109,8 +109,8 @@ impl Preset {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Organization, ReferencePolicy};
-    use foveate_camera::IrrelevantRendering;
+    use crate::Organization;
+    use foveate_camera::{IrrelevantRendering, ReferencePolicy};
 
     /// The compiler does not check that a new name has a preset.
     #[test]

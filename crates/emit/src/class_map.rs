@@ -3,7 +3,8 @@
 //! connected to its ports. A design without zones connects constants.
 
 use crate::thresholds::threshold_signal;
-use foveate_design::{CLASSES_PER_WORD, Design, PortRole, RegionClass, class_word, keen_role};
+use foveate_camera::RegionClass;
+use foveate_design::{CLASSES_PER_WORD, Design, PortRole, class_word, keen_role};
 
 /// Bits of the number of a word of the map, in terms of the grid. They are at least 1.
 const ADDRESS_BITS: &str = "(COLUMNS*ROWS > 32 ? $clog2((COLUMNS*ROWS+15)/16) : 1)";

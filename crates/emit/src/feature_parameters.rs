@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The parameters of `serial_array.v` and `raster_core.v` that belong to a feature or to the filter.
 
-use foveate_design::{DenoiseFilter, FeatureKind};
+use foveate_camera::{DenoiseFilter, FeatureKind};
 
 pub(crate) fn parameter_prefix(kind: FeatureKind) -> String {
     kind.name().to_uppercase()

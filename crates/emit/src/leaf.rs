@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The hand-written leaf modules of cores and boards, and which of them a design needs.
 
-use foveate_design::{
-    DenoiseFilter, Design, FeatureKind, Neighborhood, Pipelining, ReferencePolicy,
-};
+use foveate_camera::{DenoiseFilter, FeatureKind, Neighborhood, ReferencePolicy};
+use foveate_design::{Design, Pipelining};
 
 /// A hand-written module of `rtl/`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -15,9 +15,10 @@ use crate::thresholds::{
 use crate::verilog_text::{PortLine, module_file, rendered_text};
 use crate::{SourceFile, Top, banner};
 use askama::Template;
+use foveate_camera::{FeatureKind, Neighborhood, SpatialFeature, VoteCombination, bits_for};
 use foveate_design::{
-    Design, FRAME_NUMBERS, FeatureKind, FrameStoreKind, Neighborhood, Organization, Pipelining,
-    Port, PortRole, RasterDesign, RasterTiming, SpatialFeature, VoteCombination, bits_for,
+    Design, FRAME_NUMBERS, FrameStoreKind, Organization, Pipelining, Port, PortRole, RasterDesign,
+    RasterTiming,
 };
 
 #[derive(Template)]

@@ -12,11 +12,11 @@ use crate::thresholds::{ThresholdConstant, scores_text, threshold_constants, thr
 use crate::verilog_text::{PortLine, rendered_text};
 use crate::{banner, latency_text};
 use askama::Template;
-use foveate_design::{
-    DenoiseFilter, Design, FeatureKind, MeanDivision, Neighborhood, Periphery, PipelinedDesign,
-    PipelinedTiming, Pipelining, PortRole, SpatialFeature, VoteCombination, bits_for, index_bits,
-    keen_role,
+use foveate_camera::{
+    DenoiseFilter, FeatureKind, MeanDivision, Neighborhood, Periphery, SpatialFeature,
+    VoteCombination, bits_for, index_bits,
 };
+use foveate_design::{Design, PipelinedDesign, PipelinedTiming, Pipelining, PortRole, keen_role};
 
 #[derive(Template)]
 #[template(path = "rpu.v")]

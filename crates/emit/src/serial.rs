@@ -15,10 +15,12 @@ use crate::thresholds::{
 use crate::verilog_text::{PortLine, module_file, rendered_text};
 use crate::{SourceFile, Top, banner};
 use askama::Template;
+use foveate_camera::{
+    FeatureKind, Neighborhood, RegionClass, SpatialFeature, VoteCombination, bits_for,
+};
 use foveate_design::{
-    FeatureKind, FlowSearch, LaneMemoryKind, Neighborhood, Pipelining, PixelFeed, Port, PortRole,
-    RegionClass, SerialDesign, SerialTiming, SlotAreaKind, SpatialFeature, ThresholdSource,
-    VoteCombination, bits_for,
+    FlowSearch, LaneMemoryKind, Pipelining, PixelFeed, Port, PortRole, SerialDesign, SerialTiming,
+    SlotAreaKind, ThresholdSource,
 };
 
 #[derive(Template)]

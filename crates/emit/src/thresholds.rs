@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Thresholds as inputs or constants, and the scores as words, for all organizations.
 
-use foveate_design::{Design, DesignThreshold, FeatureKind, Port, PortRole, ThresholdSource};
+use foveate_camera::FeatureKind;
+use foveate_design::{Design, DesignThreshold, Port, PortRole, ThresholdSource};
 
 /// A threshold that is a constant in the Verilog.
 pub(crate) struct ThresholdConstant {

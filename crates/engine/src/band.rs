@@ -19,7 +19,7 @@ use crate::periphery::PeripheryPlan;
 use crate::pixels::BorrowedFrame;
 use crate::plan::CameraPlan;
 use crate::working_memory::{ColumnSums, RegionSums, WorkingMemory};
-use foveate_lanes::{BLOCK_LANES, Block, PixelLane, saturated_threshold};
+use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane, saturated_threshold};
 
 /// Returns the blocks of a run in row `y` of a padded plane.
 #[inline(always)]

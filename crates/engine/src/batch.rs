@@ -10,7 +10,7 @@ use crate::pixels::BorrowedFrame;
 use crate::plan::index;
 use crate::workers::Workers;
 use crate::{BatchScreens, EngineError, FrameOutcome, screens};
-use foveate_lanes::PixelLane;
+use foveate_pixels::lanes::PixelLane;
 
 /// The number of bytes of the frames of a group, which goes through the engine together. A group is
 /// small enough that its pixels are still in the last-level cache when they are scored, after all

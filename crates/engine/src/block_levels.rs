@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The level of each lane, which is the same one for all lanes unless regions have classes.
 
-use foveate_lanes::{BLOCK_LANES, Block};
+use foveate_pixels::lanes::{BLOCK_LANES, Block};
 
 /// The levels of the lanes of a run of blocks.
 pub(crate) trait BlockLevels<V>: Copy {

@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use crate::pixels::BorrowedFrame;
 use crate::plan::CameraPlan;
-use foveate_lanes::{BLOCK_LANES, PixelLane};
+use foveate_pixels::lanes::{BLOCK_LANES, PixelLane};
 
 /// The share of a band's blocks, as a fraction, above which the whole band is computed.
 const WHOLE_BAND_SHARE: (usize, usize) = (4, 5);

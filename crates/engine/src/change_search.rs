@@ -7,8 +7,7 @@ use crate::change;
 use crate::pixels::BorrowedFrame;
 use crate::plan::CameraPlan;
 use crate::policy::SearchStep;
-use foveate_lanes::PixelLane;
-use foveate_lanes::VectorTask;
+use foveate_pixels::{lanes::PixelLane, lanes::VectorTask};
 
 /// A task that finds the changed regions in some bands of a batch of frames.
 #[derive(Debug)]

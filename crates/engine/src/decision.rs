@@ -12,7 +12,7 @@ use crate::outcome::RegionResults;
 use crate::plan::CameraPlan;
 use crate::working_memory::RegionSums;
 use crate::zone_plan::ZonePlan;
-use foveate_lanes::PixelLane;
+use foveate_pixels::lanes::PixelLane;
 
 impl<T: PixelLane> CameraPlan<T> {
     /// Decides every region of one band. Regions that are not affected keep their scores, and their

@@ -10,7 +10,7 @@ use crate::kernel::{IsolatedSides, SharedSides, WindowRows, binomial, median, sw
 use crate::pixels::BorrowedFrame;
 use crate::plan::{CameraPlan, SeamMasks};
 use crate::working_memory::{BlockRow, DenoisedRow};
-use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
+use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane};
 
 impl<T: PixelLane> SeamMasks<T> {
     /// Returns the masks of some blocks.

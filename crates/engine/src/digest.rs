@@ -3,7 +3,7 @@
 //! compared frame by frame.
 
 use foveate_camera::RegionAction;
-use foveate_frame::FramePixels;
+use foveate_pixels::FramePixels;
 
 use crate::{Engine, FrameOutcome};
 

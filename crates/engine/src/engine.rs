@@ -2,14 +2,14 @@
 //! The public interface of the engine.
 
 use foveate_camera::{Camera, RegionClass};
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 
 use crate::lane_engine::{KeptBuffers, LaneEngine};
 use crate::pixels::BorrowedFrame;
 use crate::plan::{CameraPlan, index};
 use crate::workers::{MAX_THREADS, Workers};
 use crate::{EngineError, FrameOutcome, InstructionSet};
-use foveate_frame::{ByteFrame, FramePixels};
+use foveate_pixels::{ByteFrame, FramePixels};
 
 /// The options of an engine. They do not change what it computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

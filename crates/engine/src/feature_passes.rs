@@ -5,7 +5,7 @@
 use foveate_camera::{FeatureKind, SpatialFeature};
 
 use crate::kernel::segment::SegmentPlan;
-use foveate_lanes::{PixelLane, saturated_threshold};
+use foveate_pixels::lanes::{PixelLane, saturated_threshold};
 
 /// The passes over the pixels of a band that the features need.
 #[derive(Clone, Copy, Debug)]

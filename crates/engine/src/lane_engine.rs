@@ -18,8 +18,7 @@ use crate::state_copy::{EngineState, StateCopy};
 use crate::strip::{BandStrip, KeptStripResults, SkippedWork};
 use crate::workers::Workers;
 use crate::working_memory::WorkingMemory;
-use foveate_lanes::AlignedBuffer;
-use foveate_lanes::PixelLane;
+use foveate_pixels::{lanes::AlignedBuffer, lanes::PixelLane};
 
 /// The number of rows of the smallest strip.
 const SMALLEST_HEIGHT: usize = 96;

@@ -4,7 +4,7 @@
 use foveate_camera::RegionClass;
 
 use crate::plan::CameraPlan;
-use foveate_lanes::{AlignedBuffer, PixelLane};
+use foveate_pixels::lanes::{AlignedBuffer, PixelLane};
 
 /// The levels of all lanes of a band in which a region is keen.
 #[derive(Clone, Debug)]

@@ -45,7 +45,7 @@ mod zone_plan;
 pub use engine::{Engine, EngineOptions};
 pub use error::EngineError;
 pub use events::{EventColumn, EventColumnType, EventFrame, EventTable, EventValue};
-pub use foveate_lanes::InstructionSet;
+pub use foveate_pixels::lanes::InstructionSet;
 pub use outcome::FrameOutcome;
 pub use receiver::Receiver;
 pub use screens::BatchScreens;

@@ -5,7 +5,7 @@
 use foveate_camera::RegionAction;
 
 use crate::outcome::RegionResults;
-use foveate_lanes::PixelLane;
+use foveate_pixels::lanes::PixelLane;
 
 /// The geometry of summaries. A region has q x q blocks of b x b pixels; `blocks` is q and `side`
 /// is b.

@@ -6,7 +6,7 @@ use foveate_camera::Camera;
 
 use crate::EngineError;
 use crate::plan::index;
-use foveate_lanes::PixelLane;
+use foveate_pixels::lanes::PixelLane;
 
 /// A borrowed frame of `width` x `height` pixels.
 #[derive(Clone, Copy, Debug)]

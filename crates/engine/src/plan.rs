@@ -11,8 +11,10 @@ use foveate_camera::{
 use crate::feature_passes::{FeaturePasses, FeaturePlan, feature_plans};
 use crate::periphery::PeripheryPlan;
 use crate::zone_plan::ZonePlan;
-use foveate_lanes::AlignedBuffer;
-use foveate_lanes::{BLOCK_LANES, PixelLane, saturated_threshold};
+use foveate_pixels::{
+    lanes::AlignedBuffer,
+    lanes::{BLOCK_LANES, PixelLane, saturated_threshold},
+};
 
 /// The number of blocks in a batch of rows.
 const BATCH_BLOCKS: usize = 32;

@@ -3,8 +3,7 @@
 //! is the engine's own renderer, applied to the received pixels.
 
 use foveate_camera::{Camera, Payload, ReferencePolicy, RegionAction};
-use foveate_frame::FramePixels;
-use foveate_lanes::PixelLane;
+use foveate_pixels::{FramePixels, lanes::PixelLane};
 
 use crate::pixels::BorrowedFrame;
 use crate::plan::CameraPlan;

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The update of screen and references after the decision: copy, keep or clear each region.
 
-use foveate_camera::RegionAction;
-use foveate_camera::{Payload, ReferencePolicy};
+use foveate_camera::{Payload, ReferencePolicy, RegionAction};
 
 use crate::pixels::BorrowedFrame;
 use crate::plan::CameraPlan;
-use foveate_lanes::PixelLane;
+use foveate_pixels::lanes::PixelLane;
 
 /// The parts of a band's planes that its actions change. The screen has no padding.
 #[derive(Debug)]

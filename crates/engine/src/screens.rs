@@ -6,7 +6,7 @@
 //! slices of the caller.
 
 use crate::plan::CameraPlan;
-use foveate_lanes::PixelLane;
+use foveate_pixels::lanes::PixelLane;
 
 /// The rendered frames of the last batch, one per frame. The same value can be given to batch after
 /// batch of any engine. Pixels are `u8` up to 8 bits and `u16` beyond.

@@ -2,7 +2,7 @@
 //! The values that a region sends: denoised pixels, raw pixels, or means.
 
 use foveate_camera::{Camera, RegionAction};
-use foveate_frame::FramePixels;
+use foveate_pixels::FramePixels;
 
 use crate::Engine;
 use crate::plan::index;

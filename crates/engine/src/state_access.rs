@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The public interface to the state before the last frame.
 
-use foveate_frame::FramePixels;
-use foveate_lanes::PixelLane;
+use foveate_pixels::{FramePixels, lanes::PixelLane};
 
 use crate::Engine;
 use crate::engine::LaneCore;

@@ -3,7 +3,7 @@
 //! explain its outcome. They are made only if the caller asks for them.
 
 use foveate_camera::ReferencePolicy;
-use foveate_lanes::PixelLane;
+use foveate_pixels::lanes::PixelLane;
 
 use crate::plan::CameraPlan;
 

@@ -18,8 +18,7 @@ use crate::pixels::BorrowedFrame;
 use crate::plan::CameraPlan;
 use crate::renderer::{BandRenderer, keep_screen_band};
 use crate::working_memory::WorkingMemory;
-use foveate_lanes::PixelLane;
-use foveate_lanes::VectorTask;
+use foveate_pixels::{lanes::PixelLane, lanes::VectorTask};
 
 /// The work that was skipped.
 #[derive(Clone, Copy, Debug, Default)]

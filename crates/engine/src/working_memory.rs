@@ -8,8 +8,10 @@ use crate::kernel::flow::DisplacedErrors;
 use crate::kernel::surface::DISPLACEMENTS;
 use crate::lane_levels::LaneLevels;
 use crate::plan::CameraPlan;
-use foveate_lanes::AlignedBuffer;
-use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
+use foveate_pixels::{
+    lanes::AlignedBuffer,
+    lanes::{BLOCK_LANES, Block, PixelLane},
+};
 
 /// A row with a spare block on each side, so that it can be read shifted by one lane.
 #[derive(Clone, Debug)]

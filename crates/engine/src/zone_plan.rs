@@ -4,7 +4,7 @@
 use foveate_camera::{Camera, RegionClass};
 
 use crate::feature_passes::{FeaturePasses, FeaturePlan, feature_plans};
-use foveate_lanes::{PixelLane, saturated_threshold};
+use foveate_pixels::lanes::{PixelLane, saturated_threshold};
 
 /// The thresholds of the classes of regions that differ from those of the camera.
 #[derive(Clone, Debug)]

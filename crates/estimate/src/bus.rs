@@ -6,7 +6,7 @@
 //! little from the whole.
 
 use foveate_emit::AXI_PARTS;
-use foveate_toolchain::{SynthesisJob, SynthesisResult, sources_sha256};
+use foveate_tools::{SynthesisJob, SynthesisResult, sources_sha256};
 use serde::{Deserialize, Serialize};
 
 use crate::area::Area;

@@ -9,7 +9,7 @@ use crate::render::{heading, ramb36};
 use crate::report::AreaReport;
 use crate::speed::FrameRate;
 use crate::table::{ReportTable, wrap};
-use foveate_pictures::page::number_text::grouped;
+use foveate_output::number_text::grouped;
 
 /// The clocks per frame of the paper's array.
 const PAPER_CLOCKS_PER_FRAME: u64 = 64;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The errors of an estimate.
 
-use foveate_toolchain::ToolError;
+use foveate_tools::ToolError;
 use thiserror::Error;
 
 /// An error of an estimate.

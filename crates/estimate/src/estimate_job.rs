@@ -5,9 +5,7 @@
 use std::sync::atomic::Ordering;
 use std::thread;
 
-use foveate_toolchain::{
-    Cache, SynthesisJob, SynthesisResult, ToolError, Toolchain, sources_sha256,
-};
+use foveate_tools::{Cache, SynthesisJob, SynthesisResult, ToolError, Toolchain, sources_sha256};
 
 use crate::bus::BusArea;
 use crate::clock::ClockEstimate;

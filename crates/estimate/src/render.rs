@@ -7,8 +7,8 @@ use crate::area::Area;
 use crate::logic_levels::LogicPath;
 use crate::report::{AreaReport, LeafArea, LongestPaths};
 use crate::table::{ReportTable, header, wrap};
-use foveate_pictures::page::number_text::grouped;
-use foveate_toolchain::ToolRecord;
+use foveate_output::number_text::grouped;
+use foveate_tools::ToolRecord;
 use paper::paper_table;
 
 /// The name of a core on AXI in tables.

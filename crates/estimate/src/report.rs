@@ -11,7 +11,7 @@ use crate::error::EstimateError;
 use crate::logic_levels::LogicPath;
 use crate::paper::{PAPER_RCM, PAPER_REGIONS, PAPER_RPU, PaperComparison, PaperReport};
 use crate::speed::FrameRate;
-use foveate_toolchain::ToolRecord;
+use foveate_tools::ToolRecord;
 
 /// The version of the JSON report. It grows when a field changes its meaning or is removed.
 pub const FORMAT_VERSION: u32 = 1;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The frames per second at a clock: a given one, or the estimated one with its range.
 
-use foveate_pictures::page::number_text::real_number;
+use foveate_output::number_text::real_number;
 use serde::{Deserialize, Serialize};
 
 use crate::clock::ClockEstimate;

@@ -3,7 +3,7 @@
 
 use foveate_design::Design;
 use foveate_emit::{AXI_TOP, SourceFile, Top, axi_modules};
-use foveate_toolchain::{Source, SynthesisJob, sources_sha256};
+use foveate_tools::{Source, SynthesisJob, sources_sha256};
 
 use crate::EstimateJob;
 

@@ -2,8 +2,7 @@
 //! Tests of a toy design with Yosys. They are skipped with a message where Yosys is missing.
 
 use foveate_estimate::{EstimateError, EstimateJob, estimate, render_text};
-use foveate_toolchain::testing::require_tools;
-use foveate_toolchain::{Cache, SynthesisJob, Tool, ToolError, Toolchain};
+use foveate_tools::{Cache, SynthesisJob, Tool, ToolError, Toolchain, testing::require_tools};
 
 fn toy_job(regions: u64) -> EstimateJob {
     let rcm = include_str!("fixtures/rcm.v").replace("REGIONS", &regions.to_string());

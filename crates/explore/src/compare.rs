@@ -3,8 +3,8 @@
 //! Pareto front.
 
 use foveate_camera::CameraConfig;
-use foveate_fidelity::FidelityFigures;
-use foveate_playback::{ClipPlayer, RunClips, RunHooks, RunMonitor};
+use foveate_measure::FidelityFigures;
+use foveate_media::{ClipPlayer, RunClips, RunHooks, RunMonitor};
 
 use crate::ExploreError;
 use crate::measure::{CameraMeasurement, MeasuredClip};

@@ -8,8 +8,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use foveate_design::Design;
 use foveate_emit::Top;
 use foveate_estimate::{Area, EstimateJob, FrameRate, estimate};
-use foveate_playback::{PlaybackError, RunHooks, RunProgress};
-use foveate_toolchain::{Cache, Toolchain, sources_sha256};
+use foveate_media::{PlaybackError, RunHooks, RunProgress};
+use foveate_tools::{Cache, Toolchain, sources_sha256};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 

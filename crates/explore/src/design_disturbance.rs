@@ -5,8 +5,7 @@
 use std::path::PathBuf;
 
 use foveate_camera::CameraConfig;
-use foveate_footage::InputOptions;
-use foveate_playback::RunHooks;
+use foveate_media::{InputOptions, RunHooks};
 use serde::Serialize;
 
 use crate::error_source::SourceVariants;

@@ -5,8 +5,8 @@
 use std::fmt;
 use std::str::FromStr;
 
-use foveate_frame::{ByteFrame, FrameError, convert_depth};
 use foveate_inference::GaussianNoise;
+use foveate_pixels::{ByteFrame, FrameError, convert_depth};
 use image::codecs::jpeg::JpegEncoder;
 use image::{ExtendedColorType, ImageFormat};
 

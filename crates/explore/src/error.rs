@@ -3,17 +3,17 @@
 
 use std::path::PathBuf;
 
-use foveate_design::ConfigError;
-use foveate_energy::EnergyError;
+use crate::link::LinkError;
+use foveate_camera::ConfigError;
+use foveate_cosim::EnergyError;
 use foveate_estimate::{EstimateError, SiliconError};
-use foveate_fidelity::FidelityError;
-use foveate_frame::FrameError;
 use foveate_ideal::IdealError;
 use foveate_inference::InferenceError;
-use foveate_link::LinkError;
-use foveate_pictures::page::PageError;
-use foveate_playback::PlaybackError;
-use foveate_staging::StagingError;
+use foveate_measure::FidelityError;
+use foveate_media::PlaybackError;
+use foveate_output::page::PageError;
+use foveate_pixels::FrameError;
+use foveate_tools::StagingError;
 use thiserror::Error;
 
 /// An error that keeps an exploration from starting or finishing.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The results of an exploration as data: for the JSON file next to the tables, and for the page.
 
-use foveate_pictures::page::number_text::{counted, grouped};
+use foveate_output::number_text::{counted, grouped};
 use serde::Serialize;
 
 use crate::objective::{FrontObjectives, Objective};

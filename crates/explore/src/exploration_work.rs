@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use foveate_camera::Camera;
-use foveate_playback::RunHooks;
+use foveate_media::RunHooks;
 
 use crate::footage::ExplorationFootage;
 use crate::{DesignPoint, ExploreError, ExploreRequest, RefusedCombination};

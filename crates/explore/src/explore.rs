@@ -6,9 +6,9 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use foveate_design::Design;
-use foveate_files::tables::{NamedCells, Table};
-use foveate_playback::RunHooks;
-use foveate_staging::StagingError;
+use foveate_media::RunHooks;
+use foveate_output::tables::{NamedCells, Table};
+use foveate_tools::StagingError;
 
 use crate::exploration_work::ExplorationWork;
 use crate::folder::{MARK_FILE, UNFINISHED_MARK, claim_folder, open_continued, replace_mark};

@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use foveate_staging::{ContinuedFolder, TEMPORARY_PREFIX, write_file};
+use foveate_tools::{ContinuedFolder, TEMPORARY_PREFIX, write_file};
 
 use crate::ExploreError;
 
@@ -51,7 +51,7 @@ pub(crate) fn open_continued(output: &Path) -> Result<ContinuedFolder, ExploreEr
 /// Marks the exploration as unfinished. Returns true if it was complete.
 pub(crate) fn replace_mark(output: &Path) -> Result<bool, ExploreError> {
     let path = output.join(MARK_FILE);
-    let old = foveate_reading::read_bytes(&path, UNFINISHED_MARK.len() as u64);
+    let old = foveate_tools::read_bytes(&path, UNFINISHED_MARK.len() as u64);
     write_mark(output, UNFINISHED_MARK)?;
     // A complete description is longer than the mark.
     Ok(old.is_err())

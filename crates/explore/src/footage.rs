@@ -6,8 +6,7 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use foveate_camera::{Camera, CameraConfig};
-use foveate_footage::InputOptions;
-use foveate_playback::{ClipReading, RunClips, RunHooks, RunMonitor, RunProgress};
+use foveate_media::{ClipReading, InputOptions, RunClips, RunHooks, RunMonitor, RunProgress};
 
 use crate::measure::{CameraMeasurement, MeasuredClip};
 use crate::progress::measuring_progress;

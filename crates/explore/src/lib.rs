@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Explorations of many designs over the same footage: the errors of each design against the ideal
+//! Studies of designs over footage. An exploration has many designs over the same clips: the errors of each design against the ideal
 //! camera, its cost and its speed; and fits, which find the cheapest design that a scene needs.
 //!
 //! [`explore`](fn@explore) runs a [`DesignSpace`] of designs over clips and writes a folder of
 //! tables, Pareto fronts, configurations and one page. It continues an interrupted run.
 //! [`plan_units`] and [`measure_unit`] distribute the measurements over machines. The ideal camera
 //! is the whole-frame floating-point camera of [`foveate_ideal`], and the figures are those of
-//! [`foveate_fidelity`]. The library never prints: progress and cancellation go through
-//! [`foveate_playback::RunHooks`].
+//! [`foveate_measure`]. The library never prints: progress and cancellation go through
+//! [`foveate_media::RunHooks`].
+//!
+//! [`link`] compares what a camera sends with other senders, and [`studies`] are those of the paper.
 
 mod compare;
 mod cost;
@@ -22,6 +24,7 @@ mod fit;
 mod folder;
 mod footage;
 mod front;
+pub mod link;
 mod link_load;
 mod measure;
 mod method;
@@ -35,6 +38,7 @@ mod request;
 mod row;
 mod space;
 mod store;
+pub mod studies;
 mod table;
 mod target_process;
 mod unit;
@@ -52,7 +56,7 @@ pub use fit::{
     FitResult, FittedDesign, FittedNetwork, NetworkGoal, fit,
 };
 pub use folder::check_folder;
-pub use foveate_fidelity::{FidelityFigures, ScoreError};
+pub use foveate_measure::{FidelityFigures, ScoreError};
 pub use link_load::LoadFigures;
 pub use method::{SamplingMethod, SpaceAxis};
 pub use point::{DesignPoint, RefusedCombination};

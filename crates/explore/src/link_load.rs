@@ -2,9 +2,9 @@
 //! The loads of designs over clips on the link of the space: the clock that each needs, its latency
 //! and buffer, and the regions that a raster core loses without a buffer.
 
+use crate::link::{ArrayLink, ArrayLoad, ClipLoad, UnbufferedFigures};
 use foveate_design::Design;
-use foveate_link::{ArrayLink, ArrayLoad, ClipLoad, UnbufferedFigures};
-use foveate_playback::RunMonitor;
+use foveate_media::RunMonitor;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -86,7 +86,7 @@ impl<'a> LoadMeasurement<'a> {
         footage: &'a ExplorationFootage<'a>,
     ) -> Option<Self> {
         let clock_hz = space.clock_mhz.map(|mhz| u64::from(mhz) * 1_000_000);
-        let link = |rate: foveate_link::LinkRate| ArrayLink { bits_per_second: rate.0, clock_hz };
+        let link = |rate: crate::link::LinkRate| ArrayLink { bits_per_second: rate.0, clock_hz };
         space.link.map(|rate| Self { footage, link: link(rate) })
     }
 

@@ -8,11 +8,10 @@ use std::thread;
 
 use foveate_camera::{Camera, CameraConfig};
 use foveate_engine::Engine;
-use foveate_fidelity::{CandidateFrame, DecisionAreas, ErrorTally, Fidelity, FrameOrder};
-use foveate_footage::SourceKind;
-use foveate_frame::Rect;
 use foveate_ideal::{IdealCamera, IdealOutcome};
-use foveate_playback::{ClipPlayer, FrameDepths, PlayedFrame, RunClips, RunMonitor};
+use foveate_measure::{CandidateFrame, DecisionAreas, ErrorTally, Fidelity, FrameOrder};
+use foveate_media::{ClipPlayer, FrameDepths, PlayedFrame, RunClips, RunMonitor, SourceKind};
+use foveate_pixels::Rect;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -241,8 +240,7 @@ pub(crate) fn frame_order(frame: &PlayedFrame) -> FrameOrder {
 mod tests {
     use std::sync::atomic::{AtomicUsize, Ordering};
 
-    use foveate_footage::InputOptions;
-    use foveate_playback::{PlaybackError, RunHooks, RunProgress};
+    use foveate_media::{InputOptions, PlaybackError, RunHooks, RunProgress};
 
     use super::*;
 

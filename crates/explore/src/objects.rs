@@ -2,8 +2,8 @@
 //! The number of ground-truth objects of which a camera sends at least half.
 
 use foveate_camera::Camera;
-use foveate_footage::boxes::RegionGrid;
-use foveate_frame::Rect;
+use foveate_media::boxes::RegionGrid;
+use foveate_pixels::Rect;
 use serde::{Deserialize, Serialize};
 
 /// Counts of objects over frames.

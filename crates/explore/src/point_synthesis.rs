@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 
 use foveate_design::Design;
 use foveate_estimate::SiliconReport;
-use foveate_playback::{PlaybackError, RunHooks, RunProgress};
-use foveate_toolchain::Interrupt;
+use foveate_media::{PlaybackError, RunHooks, RunProgress};
+use foveate_tools::Interrupt;
 
 use crate::cost::{ResultsByRtl, SynthesisResult};
 use crate::footage::ExplorationFootage;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The stages of explorations and fits, as reports of progress.
 
-use foveate_playback::RunProgress;
+use foveate_media::RunProgress;
 
 /// Reports that clips are read to find their lengths, so far this number of frames.
 pub(crate) fn reading_progress(frames: u64) -> RunProgress<'static> {

@@ -17,9 +17,9 @@ pub(crate) mod sample;
 mod tests;
 
 use askama::Template;
-use foveate_pictures::page::{
+use foveate_output::number_text;
+use foveate_output::page::{
     COLOUR_COUNT, LinkTarget, PageError, PageNotice, PagePlot, ResultPage, SortableTable,
-    number_text,
 };
 
 use crate::{DesignFront, DesignRow, Exploration, ExploreError};

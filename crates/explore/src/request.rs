@@ -3,7 +3,7 @@
 
 use std::path::PathBuf;
 
-use foveate_footage::InputOptions;
+use foveate_media::InputOptions;
 
 use crate::{DesignSpace, Disturbance, Synthesizer, TargetProcess};
 

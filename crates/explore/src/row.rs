@@ -4,7 +4,7 @@
 use foveate_camera::Camera;
 use foveate_design::{Design, DesignConfig};
 use foveate_estimate::{FpgaDevice, FrameRate};
-use foveate_fidelity::{ErrorTally, FidelityFigures};
+use foveate_measure::{ErrorTally, FidelityFigures};
 use serde::Serialize;
 
 use crate::LoadFigures;

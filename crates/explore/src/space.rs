@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A space of designs, as a file defines it: the start, the ideal camera, and the axes.
 
+use crate::link::LinkRate;
 use foveate_camera::{CameraConfig, ConfigError};
 use foveate_design::{DesignConfig, Preset};
-use foveate_link::LinkRate;
 use serde::Deserialize;
 use toml::{Table, Value};
 

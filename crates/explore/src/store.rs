@@ -8,14 +8,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
+use crate::link::ArrayLink;
 use foveate_camera::CameraConfig;
+use foveate_cosim::ENERGY_FORMAT_VERSION;
 use foveate_design::{Design, DesignConfig};
-use foveate_energy::ENERGY_FORMAT_VERSION;
 use foveate_estimate::SiliconReport;
-use foveate_footage::{ComparedInput, ImageRelation, InputOptions, matched_images};
-use foveate_link::ArrayLink;
-use foveate_staging::write_file;
-use foveate_toolchain::sha256_hex;
+use foveate_media::{ComparedInput, ImageRelation, InputOptions, matched_images};
+use foveate_tools::{sha256_hex, write_file};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -50,8 +49,7 @@ impl MeasurementStore {
     /// Returns a finished measurement; `None` if it does not exist or cannot be read.
     pub(crate) fn get<T: DeserializeOwned>(&self, key: &str) -> Option<T> {
         serde_json::from_slice(
-            &foveate_reading::read_bytes(&self.measurement_path(key), MAX_MEASUREMENT_BYTES)
-                .ok()?,
+            &foveate_tools::read_bytes(&self.measurement_path(key), MAX_MEASUREMENT_BYTES).ok()?,
         )
         .ok()
     }
@@ -163,7 +161,7 @@ fn stamp_file(text: &mut String, file: &Path) {
 
 #[cfg(test)]
 mod tests {
-    use foveate_footage::{TimestampUnit, TimestampsFile};
+    use foveate_media::{TimestampUnit, TimestampsFile};
 
     use super::*;
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The points as a table, with one list of columns for CSV and Parquet.
 
-use foveate_design::FeatureKind;
+use foveate_camera::FeatureKind;
 use foveate_estimate::FrameRate;
-use foveate_fidelity::FidelityFigures;
-use foveate_files::tables::{NamedCells, TableCell};
+use foveate_measure::FidelityFigures;
+use foveate_output::tables::{NamedCells, TableCell};
 
 use crate::LoadFigures;
 use crate::row::{DesignRow, count_to_f64};
@@ -119,7 +119,7 @@ pub(crate) fn error_cells(figures: &FidelityFigures) -> NamedCells {
     .into();
     for feature in score_names() {
         let score = figures.scores.iter().find(|score| score.feature == feature);
-        let of = |take: fn(&foveate_fidelity::ScoreError) -> f64| TableCell::Real(score.map(take));
+        let of = |take: fn(&foveate_measure::ScoreError) -> f64| TableCell::Real(score.map(take));
         cells.push((format!("{feature}_max"), of(|score| score.max)));
         cells.push((format!("{feature}_mean"), of(|score| score.mean)));
         cells.push((format!("{feature}_rms"), of(|score| score.rms)));

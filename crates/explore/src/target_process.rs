@@ -4,10 +4,10 @@
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use foveate_cosim::{ActivityClip, EnergyJob, EnergyReport, StretchEnergy, measure_energy};
 use foveate_design::{Design, Organization};
-use foveate_energy::{ActivityClip, EnergyJob, EnergyReport, StretchEnergy, measure_energy};
 use foveate_estimate::{LibertyLibrary, SiliconJob, SiliconReport, count_to_f64, map_to_silicon};
-use foveate_playback::{PlaybackError, RunClips, RunHooks};
+use foveate_media::{PlaybackError, RunClips, RunHooks};
 use rayon::prelude::*;
 use serde::Serialize;
 

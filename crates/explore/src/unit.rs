@@ -11,9 +11,8 @@ use std::ops::Range;
 use std::path::Path;
 
 use foveate_design::Design;
-use foveate_footage::input_without_secrets;
-use foveate_playback::RunHooks;
-use foveate_staging::write_file;
+use foveate_media::{RunHooks, input_without_secrets};
+use foveate_tools::write_file;
 use serde::{Deserialize, Serialize};
 
 use crate::exploration_work::ExplorationWork;

@@ -6,8 +6,8 @@
 use std::time::Instant;
 
 use foveate_camera::{CameraConfig, FeatureKind, SpatialConfig};
-use foveate_frame::ByteFrame;
 use foveate_ideal::IdealCamera;
+use foveate_pixels::ByteFrame;
 
 fn main() {
     for (width, height) in [(1280_u32, 720_u32), (1920, 1080)] {

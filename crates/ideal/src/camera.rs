@@ -2,7 +2,7 @@
 //! The ideal camera, which takes one whole frame at a time.
 
 use foveate_camera::{Camera, DenoiseFilter, Payload, RegionAction, RegionClass};
-use foveate_frame::ByteFrame;
+use foveate_pixels::ByteFrame;
 
 use crate::binomial::filter_binomial;
 use crate::feature::{ScoreBuffers, count_changed_pixels, score};

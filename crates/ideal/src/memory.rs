@@ -2,8 +2,7 @@
 //! The references that a frame is compared with: the denoised pixels of every region in an earlier
 //! frame.
 
-use foveate_camera::RegionAction;
-use foveate_camera::{Camera, ReferencePolicy};
+use foveate_camera::{Camera, ReferencePolicy, RegionAction};
 
 use crate::grid::RegionGrid;
 use crate::plane::PaddedPlane;

@@ -2,7 +2,7 @@
 //! A padded frame of real numbers with a border of one pixel that repeats the outermost pixels, so
 //! that every 3x3 window is nine plain reads.
 
-use foveate_frame::FramePixels as Pixels;
+use foveate_pixels::FramePixels as Pixels;
 
 use crate::grid::RegionGrid;
 

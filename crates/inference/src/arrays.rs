@@ -5,10 +5,12 @@
 use crate::InferenceError;
 use crate::inference::INFERENCE_FOLDER;
 use crate::recording::{OUTPUTS_FOLDER, free_name};
-use foveate_files::npy::{self, NpyArray};
-use foveate_network::onnx::{TensorProto, data_type};
-use foveate_network::{NetworkEvaluation, evaluate};
-use foveate_staging::{StagedFolder, StagingError};
+use foveate_network::{
+    NetworkEvaluation, evaluate,
+    onnx::{TensorProto, data_type},
+};
+use foveate_output::npy::{self, NpyArray};
+use foveate_tools::{StagedFolder, StagingError, open_file};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -84,7 +86,8 @@ pub fn infer_arrays(
         inputs.push(ArrayFile { name: None, dtype, shape: array.shape.clone(), file });
         tensors.push(tensor(array, kind));
     }
-    let NetworkEvaluation { outputs, macs, weight_bytes, time } = evaluate(network, &tensors)?;
+    let NetworkEvaluation { outputs, macs, weight_bytes, time } =
+        evaluate(network, open_file, &tensors)?;
     let outputs = write(&staging, outputs).map_err(|error| staging.with_shown_path(error))?;
     let seconds = time.as_secs_f64();
     let network = network.to_owned();

@@ -4,11 +4,12 @@
 
 use foveate_design::Design;
 use foveate_engine::Engine;
-use foveate_footage::SourceKind;
-use foveate_frame::Rect;
-use foveate_network::Mask;
-use foveate_network::vision::{FrameFormat, FrameInput, VisionNetwork};
-use foveate_playback::{PlaybackError, PlayedFrame};
+use foveate_media::{PlaybackError, PlayedFrame, SourceKind};
+use foveate_network::{
+    Mask,
+    vision::{FrameFormat, FrameInput, VisionNetwork},
+};
+use foveate_pixels::Rect;
 
 /// A design's engine and the receiver's screen behind it.
 pub(crate) struct ReceiverCamera {
@@ -90,7 +91,7 @@ impl ReceivedFrame<'_> {
 
 /// Returns the size, depth and regions of a camera's frames, as a network needs them.
 #[must_use]
-pub fn frame_format_of(camera: &foveate_design::Camera) -> FrameFormat {
+pub fn frame_format_of(camera: &foveate_camera::Camera) -> FrameFormat {
     FrameFormat {
         width: camera.width(),
         height: camera.height(),

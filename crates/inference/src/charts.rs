@@ -6,7 +6,7 @@ use crate::LayerSummary;
 use crate::frame::FrameFigures;
 use crate::summary::{InferenceSummary, TuningSummary};
 use crate::table_columns::NamedTrial;
-use foveate_pictures::chart::{Chart, ChartData, LineLook};
+use foveate_output::chart::{Chart, ChartData, LineLook};
 
 /// A chart, and the id of every point of its lines.
 pub(crate) struct ChartWithIds {
@@ -171,7 +171,7 @@ fn chart(file: &str, title: &str, x: &str, y: &str, series: Vec<ChartSeries>) ->
         .into_iter()
         .map(|ChartSeries { name, look, points }| {
             let (ids, points) = points.into_iter().unzip();
-            (foveate_pictures::chart::ChartSeries { name, points, look }, ids)
+            (foveate_output::chart::ChartSeries { name, points, look }, ids)
         })
         .unzip();
     let chart = Chart {

@@ -3,7 +3,7 @@
 
 use crate::InferenceError;
 use crate::camera::{CameraSetup, ReceivedFrame, ReceiverCamera};
-use foveate_playback::{ClipPlayer, PlaybackError, RunClips, RunMonitor};
+use foveate_media::{ClipPlayer, PlaybackError, RunClips, RunMonitor};
 use std::num::NonZeroU32;
 
 pub(crate) trait FrameConsumer {

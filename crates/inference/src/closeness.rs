@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The closeness of outputs to those of a whole computation, and the goal for it.
 
-use foveate_network::vision::{OutputDistance, index_of_largest};
-use foveate_network::{Executor, Network};
+use foveate_network::{
+    Executor, Network,
+    vision::{OutputDistance, index_of_largest},
+};
 use std::borrow::Cow;
 
 /// The variation of the outputs of a whole computation over the frames of a clip. Differences

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The cost of a run's frames on an accelerator, computed whole and computed where the masks say.
 
-use foveate_accelerator::{
-    Accelerator, AcceleratorError, KernelWindow, Layer, LayerCost, LayerPlan, TensorShape,
+use foveate_network::{
+    AxisWindow as Taps, Executor, Network, ProductKind, TensorForm,
+    accelerator::{
+        Accelerator, AcceleratorError, KernelWindow, Layer, LayerCost, LayerPlan, TensorShape,
+    },
 };
-use foveate_network::{AxisWindow as Taps, Executor, Network, ProductKind, TensorForm};
 use serde::Serialize;
 
 /// The costs of a network's nodes on an accelerator.

@@ -4,15 +4,11 @@
 use std::io;
 use std::path::PathBuf;
 
-use foveate_accelerator::AcceleratorError;
-use foveate_design::ConfigError;
-use foveate_files::npy::NpyError;
-use foveate_network::NetworkError;
-use foveate_network::vision::VisionError;
-use foveate_pictures::chart::ChartError;
-use foveate_pictures::page::PageError;
-use foveate_playback::PlaybackError;
-use foveate_staging::StagingError;
+use foveate_camera::ConfigError;
+use foveate_media::PlaybackError;
+use foveate_network::{NetworkError, accelerator::AcceleratorError, vision::VisionError};
+use foveate_output::{chart::ChartError, npy::NpyError, page::PageError};
+use foveate_tools::StagingError;
 use thiserror::Error;
 
 /// An error that keeps a run from starting or finishing.

@@ -7,8 +7,7 @@ use crate::positions::PositionCounts;
 use crate::sums::sum;
 use crate::traffic::{FrameTraffic, TrafficTally};
 use crate::whole_frames::FrameAgreement;
-use foveate_accelerator::LayerCost;
-use foveate_network::{Executor, Network, NodeWork};
+use foveate_network::{Executor, Network, NodeWork, accelerator::LayerCost};
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LayerFigures {

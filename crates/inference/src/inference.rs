@@ -18,13 +18,13 @@ use crate::table_columns::{FRAMES, LAYERS, TRIALS, detection_table, table};
 use crate::tuning::{TunedLimits, tune};
 use crate::whole_frames::WholeFrameComparison;
 use crate::{Computation, InferenceError, VisionNetwork, VisionOptions};
-use foveate_accelerator::Accelerator;
 use foveate_design::{Design, DesignConfig};
-use foveate_footage::InputOptions;
-use foveate_playback::{
-    ClipPlayer, ClipReading, CommonFormat, PlaybackError, RunClips, RunHooks, RunMonitor,
+use foveate_media::{
+    ClipPlayer, ClipReading, CommonFormat, InputOptions, PlaybackError, RunClips, RunHooks,
+    RunMonitor,
 };
-use foveate_staging::{FolderKind, StagedFolder};
+use foveate_network::accelerator::Accelerator;
+use foveate_tools::{FolderKind, StagedFolder, open_file};
 use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 
@@ -105,7 +105,7 @@ impl Inference {
         clips: RunClips,
     ) -> Result<Self, InferenceError> {
         let CommonFormat { size, frames } = clips.common_format(ClipReading::Once)?;
-        let vision_network = VisionNetwork::read(network, size, &vision_options)?;
+        let vision_network = VisionNetwork::read(network, open_file, size, &vision_options)?;
         let design = config.validate_for_frames(size.0, size.1)?;
         Ok(Self { design, vision_network, vision_options, path: network.to_owned(), clips, frames })
     }

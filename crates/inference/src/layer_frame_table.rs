@@ -12,9 +12,9 @@ use crate::positions::PositionCounts;
 use crate::summary::mask_bytes;
 use crate::traffic::TrafficTally;
 use ColumnType::{Flag, Long, Real, Text};
-use foveate_files::tables::{Column, ColumnType, ParquetWriter, TableValue};
 use foveate_network::Network;
-use foveate_staging::{StagedFolder, StagingError};
+use foveate_output::tables::{Column, ColumnType, ParquetWriter, TableValue};
+use foveate_tools::{StagedFolder, StagingError};
 
 pub(crate) const FILE_NAME: &str = "layers_frames.parquet";
 /// The number of rows of a group, which takes a few megabytes of memory.

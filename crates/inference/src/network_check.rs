@@ -3,6 +3,7 @@
 
 use crate::InferenceError;
 use foveate_network::{FrameSize, Network, NetworkCheck};
+use foveate_tools::open_file;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -49,7 +50,7 @@ pub struct NetworkFacts {
 /// exactly one input that takes frames.
 pub fn check_network(path: &Path, open: (u32, u32)) -> Result<NetworkReport, InferenceError> {
     let open = FrameSize { width: open.0 as usize, height: open.1 as usize };
-    let NetworkCheck { nodes, network } = Network::check(path, open)?;
+    let NetworkCheck { nodes, network } = Network::check(path, open_file, open)?;
     Ok(match network {
         Ok(network) => {
             NetworkReport { nodes, problems: Vec::new(), network: Some(facts(&network)) }

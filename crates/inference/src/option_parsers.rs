@@ -3,8 +3,7 @@
 
 use std::path::Path;
 
-use foveate_accelerator::Accelerator;
-use foveate_network::ExecutionMode;
+use foveate_network::{ExecutionMode, accelerator::Accelerator};
 
 use crate::{InferenceError, TuningGoal};
 
@@ -82,7 +81,7 @@ pub fn parse_goal(text: &str) -> Result<TuningGoal, String> {
 pub fn read_accelerator(name: &str) -> Result<(String, Accelerator), InferenceError> {
     let path = Path::new(name);
     let accelerator = if path.extension().is_some_and(|extension| extension == "toml") {
-        let text = foveate_reading::read_settings(path)
+        let text = foveate_tools::read_settings(path)
             .map_err(|source| InferenceError::Read { path: path.to_owned(), source })?;
         Accelerator::from_toml(&text).map_err(|error| InferenceError::InvalidOption {
             problem: format!("`{name}`: {error}"),

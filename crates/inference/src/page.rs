@@ -17,7 +17,7 @@ use crate::frame::{FrameFigures, counted_frames};
 use crate::whole_frames::KeptScreens;
 use askama::Template;
 use foveate_design::Design;
-use foveate_pictures::page::{
+use foveate_output::page::{
     LinkTarget, PageError, PageNotice, PagePlot, ResultPage, SortableTable,
 };
 use rows::TableRows;

@@ -3,9 +3,9 @@
 //! of outputs that are frames.
 
 use crate::InferenceError;
-use foveate_files::npy::{ElementType, NpyWriter};
 use foveate_network::{Executor, Network, TensorForm};
-use foveate_staging::{StagedFolder, StagingError};
+use foveate_output::npy::{ElementType, NpyWriter};
+use foveate_tools::{StagedFolder, StagingError};
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 use serde::Serialize;

@@ -21,7 +21,7 @@ use crate::whole_computation::WholeComputation;
 use crate::whole_frames::{CountedDetections, WholeFrameComparison};
 use crate::{Computation, Framing, InferenceError, PixelMapping, TuningGoal};
 use foveate_design::Design;
-use foveate_footage::LumaRange;
+use foveate_media::LumaRange;
 use foveate_network::Network;
 use std::num::NonZeroU32;
 use std::time::Instant;

@@ -10,7 +10,7 @@ use crate::whole_frames::DetectionRow;
 use FigureValue::{
     Count, Error, Flag, GoalReached, Limit, Milliseconds, Psnr, Real, Shape, Share, Text,
 };
-use foveate_files::tables::{NamedCells, Table, TableCell};
+use foveate_output::tables::{NamedCells, Table, TableCell};
 
 /// A value of a column with its kind. The files and the page each format the kinds in their own
 /// way.

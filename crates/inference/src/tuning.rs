@@ -14,8 +14,8 @@ use crate::macs::{Macs, macs_of_layers};
 use crate::positions::PositionCounts;
 use crate::runner::{ExecutorMode, NetworkRunner};
 use crate::summary::{TuningSummary, TuningTrial};
+use foveate_media::{PlaybackError, RunHooks, RunProgress};
 use foveate_network::{ExecutionMode, Executor, Network};
-use foveate_playback::{PlaybackError, RunHooks, RunProgress};
 use std::borrow::Cow;
 
 /// The exponents of 2 of the multiples that all nodes get together.

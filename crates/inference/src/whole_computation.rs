@@ -2,8 +2,7 @@
 //! A whole computation of every frame, with which another computation is compared.
 
 use crate::closeness::ClosenessTally;
-use foveate_network::vision::OutputDistance;
-use foveate_network::{ExecutionMode, Executor, Mask, Network};
+use foveate_network::{ExecutionMode, Executor, Mask, Network, vision::OutputDistance};
 use std::time::Instant;
 
 /// A whole computation that runs next to the compared one.

@@ -10,7 +10,8 @@
 //! used (after)      A  A  B  B  B  B  B  B  C     frame F uses map B
 //! ```
 
-use foveate_design::{CLASS_BITS, CLASSES_PER_WORD, Design, RegionClass};
+use foveate_camera::RegionClass;
+use foveate_design::{CLASS_BITS, CLASSES_PER_WORD, Design};
 
 use crate::ClassMapInputs;
 use crate::conversions::index;
@@ -94,7 +95,7 @@ fn class_of_word(word: u32, place: u32) -> RegionClass {
 
 #[cfg(test)]
 mod tests {
-    use foveate_design::RegionClass::{Always, Keen, Normal, Off};
+    use foveate_camera::RegionClass::{Always, Keen, Normal, Off};
 
     use super::*;
 

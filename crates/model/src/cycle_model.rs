@@ -29,7 +29,7 @@ pub struct CoreInput<'a> {
     pub thresholds: &'a ThresholdInputs,
     /// Values of the inputs that only a core with zones has. Without them all classes have the same
     /// thresholds, and nothing is written to the memory of classes. Every region of a pipelined
-    /// core is then [`foveate_design::RegionClass::Normal`].
+    /// core is then [`foveate_camera::RegionClass::Normal`].
     pub zones: Option<ZoneInputs<'a>>,
 }
 

@@ -8,7 +8,7 @@ use foveate_camera::Camera;
 use crate::region::{RegionArea, black_padded_frame};
 use crate::region_view::FrameRegion;
 use crate::window_filter::filtered_pixel;
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 
 /// Returns a padded frame after the filter of the camera.
 ///

@@ -17,7 +17,7 @@ use crate::region::{RegionArea, black_frame, black_padded_frame, check_frame_kin
 use crate::region_view::FrameRegion;
 use crate::screen::Screen;
 use crate::temporal::{RegionReferences, changed_pixels};
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 
 /// The results of one frame. Regions are numbered row by row.
 #[derive(Clone, Debug, PartialEq, Eq)]

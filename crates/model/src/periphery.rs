@@ -7,7 +7,7 @@ use foveate_camera::{Camera, IrrelevantRendering, Periphery, RegionAction};
 use crate::conversions::index;
 use crate::decision::region_action;
 use crate::region::RegionArea;
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 
 /// Returns the means of the blocks of a region in row-major order, each
 /// `floor((sum + floor(b*b / 2)) / (b*b))`. `pixels` are those of the region in row-major order.

@@ -5,7 +5,7 @@ use foveate_camera::Camera;
 
 use crate::ModelError;
 use crate::conversions::index;
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 
 /// The square of pixels of a region, in coordinates of the padded frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

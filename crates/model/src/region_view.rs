@@ -7,7 +7,7 @@ use foveate_camera::{Camera, Neighborhood};
 use crate::conversions::index;
 use crate::region::RegionArea;
 use crate::window::{PixelWindow, WindowBounds};
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 
 /// The denoised pixels of a region and of its reference, in row-major order.
 pub trait RegionView {

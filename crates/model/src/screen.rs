@@ -5,7 +5,7 @@ use foveate_camera::Camera;
 
 use crate::region::{RegionArea, black_padded_frame, crop_into, pad_into};
 use foveate_camera::RegionAction;
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 
 /// The rendered regions with padding. The screen is black before the first frame.
 #[derive(Clone, Debug)]

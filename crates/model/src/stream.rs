@@ -5,7 +5,7 @@
 use foveate_camera::Camera;
 
 use crate::region::RegionArea;
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 
 /// Appends the raw pixels that region `region` of a frame sends to its RPU: a square of side
 /// `camera.stream_side()` in row-major order. A position outside of the frame holds the nearest

@@ -8,7 +8,7 @@ use crate::conversions::{count_true, index};
 use crate::region::{RegionArea, black_padded_frame};
 use crate::region_view::RegionView;
 use foveate_camera::RegionAction;
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 
 /// Returns `|now - reference|` of every pixel of a region of two padded frames, in row-major order.
 /// A pixel has changed if this is above the level.

@@ -20,7 +20,14 @@ const SIZES: [(usize, usize); 4] = [(640, 360), (224, 224), (640, 384), (28, 28)
 fn main() {
     rayon::ThreadPoolBuilder::new().num_threads(1).build_global().expect("the first pool");
     let path = std::env::args().nth(1).expect("a network, as an ONNX file");
-    let read = |&(width, height)| Network::read(Path::new(&path), FrameSize { width, height }).ok();
+    let read = |&(width, height)| {
+        Network::read(
+            Path::new(&path),
+            |path| std::fs::File::open(path),
+            FrameSize { width, height },
+        )
+        .ok()
+    };
     let network = SIZES.iter().find_map(read).expect("a network for one of the usual sizes");
     let (height, width) = (network.input().height(), network.input().width());
     println!("{path}, {width}x{height}\n");

@@ -29,7 +29,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let (width, height) = size.split_once('x').ok_or("a size is WIDTHxHEIGHT")?;
     let frames = FrameSize { width: width.parse()?, height: height.parse()? };
-    let network = Network::read(Path::new(network), frames)?;
+    let network = Network::read(Path::new(network), |path| std::fs::File::open(path), frames)?;
     let bytes = std::fs::read(picture)?;
     let picture: Vec<f32> =
         bytes.as_chunks().0.iter().map(|&bytes| f32::from_le_bytes(bytes)).collect();

@@ -25,7 +25,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let (width, height) = size.split_once('x').ok_or("a size is WIDTHxHEIGHT")?;
     let frames = FrameSize { width: width.parse()?, height: height.parse()? };
-    let network = Network::read(Path::new(network), frames)?;
+    let network = Network::read(Path::new(network), |path| std::fs::File::open(path), frames)?;
     let (picture, whole) =
         (vec![0.5; network.input().element_count()], Mask::full(frames.height, frames.width));
     let mut dense = Executor::new(&network, ExecutionMode::Dense);

@@ -7,7 +7,7 @@ use crate::executor::{ExecutionMode, Executor};
 use crate::mask::Mask;
 use crate::onnx::TensorProto;
 use crate::optional_instant::OptionalInstant;
-use crate::reader::read_for_arrays;
+use crate::reader::{OpenFile, read_for_arrays};
 use std::path::Path;
 use std::time::Duration;
 
@@ -30,8 +30,12 @@ pub struct NetworkEvaluation {
 ///
 /// # Errors
 /// Fails if the network cannot be read, or if an array has another type or shape than its input.
-pub fn evaluate(path: &Path, arrays: &[TensorProto]) -> Result<NetworkEvaluation, NetworkError> {
-    let read = read_for_arrays(path, arrays)?;
+pub fn evaluate(
+    path: &Path,
+    open: OpenFile,
+    arrays: &[TensorProto],
+) -> Result<NetworkEvaluation, NetworkError> {
+    let read = read_for_arrays(path, open, arrays)?;
     let network = &read.network;
     let mut executor = Executor::new(network, ExecutionMode::Dense);
     let start = OptionalInstant::now();

@@ -8,7 +8,9 @@
 //! each value is summed in one fixed order, whichever positions are computed.
 //!
 //! [`vision`] converts frames to the input of a network and reads detections from its outputs.
+//! [`accelerator`] knows what layers cost on an accelerator.
 
+pub mod accelerator;
 mod activation;
 mod comparison;
 mod element;
@@ -37,6 +39,6 @@ pub use input_layout::InputLayout;
 pub use mask::{AxisWindow, Mask};
 pub use network::{Network, NetworkNode};
 pub use operator::ProductKind;
-pub use reader::{FrameSize, NetworkCheck, operators};
+pub use reader::{FrameSize, NetworkCheck, OpenFile, operators};
 pub use tensor::Tensor;
 pub use tensor_form::TensorForm;

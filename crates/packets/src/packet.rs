@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Packets as values, and their checks: only bytes that exactly match the layout are a packet.
 
-use foveate_design::Displacement;
+use foveate_camera::Displacement;
 
 use crate::FrameInfo;
 use crate::packet_layout::{

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The lengths of the packets of a design, and the ranges of their fields.
 
-use foveate_design::{Camera, Design, IrrelevantRendering, Payload, SpatialFeature};
+use foveate_camera::{Camera, IrrelevantRendering, Payload, SpatialFeature};
+use foveate_design::Design;
 
 use crate::word_fields::{checked_field, checked_u8, checked_u16, index};
 use crate::{FrameInfo, PacketError};

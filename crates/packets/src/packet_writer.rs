@@ -2,7 +2,7 @@
 //! Makes packets. Each function appends one packet to a vector, or appends nothing and fails if the
 //! packet does not fit the format.
 
-use foveate_design::Displacement;
+use foveate_camera::Displacement;
 
 use crate::packet::{
     END_TYPE, FLOW_TYPE, FRAME_TYPE, REGION_TYPE, REGISTER_TYPE, ROW_TYPE, SCORES_TYPE,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A received frame: its decisions, its regions and its losses.
 
-use foveate_design::{Displacement, IrrelevantRendering, RegionAction};
+use foveate_camera::{Displacement, IrrelevantRendering, RegionAction};
 
 use crate::word_fields::index;
 use crate::{

@@ -9,12 +9,11 @@ pub use summary::{BatchSummary, ClipSummary};
 use std::path::Path;
 
 use foveate_design::DesignConfig;
-use foveate_footage::{BatchClip, InputOptions};
-use foveate_playback::{
-    ClipPlayer, PlaybackError, RunHooks, RunMonitor, RunProgress, run_in_parallel,
+use foveate_media::{
+    BatchClip, ClipPlayer, InputOptions, PlaybackError, RunHooks, RunMonitor, RunProgress,
+    run_in_parallel,
 };
-use foveate_staging::StagedFolder;
-use foveate_toolchain::Interrupt;
+use foveate_tools::{Interrupt, StagedFolder};
 
 use crate::output::INTERRUPTED;
 use crate::simulation::SIMULATION_FOLDER;

@@ -4,17 +4,14 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use foveate_design::ConfigError;
-use foveate_eventfiles::EventFileError;
-use foveate_footage::FootageError;
-use foveate_frame::FrameError;
+use foveate_camera::ConfigError;
+use foveate_media::{EventFileError, FootageError, PlaybackError};
 use foveate_model::ModelError;
+use foveate_output::chart::ChartError;
 use foveate_packets::PacketError;
-use foveate_pictures::chart::ChartError;
-use foveate_playback::PlaybackError;
-use foveate_staging::{StagedFolder, StagingError};
+use foveate_pixels::FrameError;
 use foveate_timed::TimedError;
-use foveate_toolchain::ToolError;
+use foveate_tools::{StagedFolder, StagingError, ToolError};
 use thiserror::Error;
 
 /// The error that is returned if a simulation cannot be started or finished.
@@ -115,7 +112,7 @@ impl SimulatorError {
     /// Returns true if the disk was full.
     pub(crate) fn is_full(&self) -> bool {
         match self {
-            Self::Write { source, .. } => foveate_staging::is_full(source),
+            Self::Write { source, .. } => foveate_tools::is_full(source),
             Self::Output(error) => error.is_full(),
             Self::VideoOutput { is_full, .. } => *is_full,
             _ => false,

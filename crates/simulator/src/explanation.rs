@@ -3,9 +3,11 @@
 //! camera, so that reference and screen are those of the run.
 
 use foveate_design::DesignConfig;
-use foveate_model::FunctionalCamera;
-use foveate_model::explanation::{FrameIdentification, RegionExplanation};
-use foveate_playback::ClipPlayer;
+use foveate_media::ClipPlayer;
+use foveate_model::{
+    FunctionalCamera,
+    explanation::{FrameIdentification, RegionExplanation},
+};
 
 use crate::SimulatorError;
 

@@ -8,7 +8,7 @@
 //! direction has two types: a [`PacketRecording`] is a stream of packets that becomes such a
 //! folder, and a [`PacketStream`] is a stream of packets whose frames are used as they arrive.
 //! Memory does not grow with the number of frames. The library never prints: progress and
-//! cancellation go through [`foveate_playback::RunHooks`].
+//! cancellation go through [`foveate_media::RunHooks`].
 
 mod active_groups;
 mod batch;

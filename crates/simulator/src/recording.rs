@@ -7,11 +7,9 @@ use std::io::{ErrorKind, Read};
 use std::path::Path;
 
 use foveate_design::{Design, DesignConfig};
-use foveate_footage::{SetForm, SourceFrame};
+use foveate_media::{PlaybackError, RunHooks, RunProgress, SetForm, SourceFrame};
 use foveate_packets::{PacketError, StreamLoss};
-use foveate_playback::{PlaybackError, RunHooks, RunProgress};
-use foveate_staging::StagedFolder;
-use foveate_toolchain::Interrupt;
+use foveate_tools::{Interrupt, StagedFolder};
 
 use crate::losses::LossTable;
 use crate::output::{FrameContent, INTERRUPTED, RunRecorder};

@@ -5,9 +5,8 @@ use std::path::Path;
 
 use foveate_design::{Design, DesignConfig};
 use foveate_engine::Engine;
-use foveate_footage::SourceKind;
-use foveate_playback::{ClipPlayer, PlaybackError, RunHooks, RunMonitor};
-use foveate_staging::{FolderKind, StagedFolder};
+use foveate_media::{ClipPlayer, PlaybackError, RunHooks, RunMonitor, SourceKind};
+use foveate_tools::{FolderKind, StagedFolder};
 
 use crate::output::{DISK_FULL, FrameContent, INTERRUPTED, RunRecorder};
 use crate::{RunOptions, RunSummary, SimulatorError};

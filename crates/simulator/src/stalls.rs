@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use csv::{ReaderBuilder, StringRecord};
-use foveate_reading::{open_file, table_reader};
+use foveate_tools::{open_file, table_reader};
 
 use crate::SimulatorError;
 

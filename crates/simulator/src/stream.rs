@@ -7,11 +7,11 @@ use std::collections::VecDeque;
 
 use foveate_design::{Design, DesignConfig};
 use foveate_engine::{FrameOutcome, Receiver};
-use foveate_frame::{ByteFrame, FramePixels};
 use foveate_packets::{
     FrameAssembler, FrameClock, FrameInfo, Packet, PacketError, PacketLayout, PacketSplitter,
     ReceivedFrame, RegionContent, RegisterPacket, StreamLoss,
 };
+use foveate_pixels::{ByteFrame, FramePixels};
 
 use crate::SimulatorError;
 

@@ -14,8 +14,8 @@ use std::time::{Duration, Instant};
 
 use foveate_design::{Design, DesignConfig};
 use foveate_engine::Engine;
-use foveate_frame::{ByteFrame, Frame};
 use foveate_model::{CoreInput, CycleModel, ThresholdInputs, rcm_model};
+use foveate_pixels::{ByteFrame, Frame};
 use foveate_timed::{FrameDelivery, RateSink, ReadySink, Sink, TimedModel};
 use frame_beats::frame_beats;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The frames that a source delivers, with the clocks at which it offers their beats.
 
-use foveate_frame::FramePixels;
+use foveate_pixels::FramePixels;
 
 /// The number of the edge at which an event happens that never happens. It is so far below the
 /// largest number that sums of clocks do not overflow.

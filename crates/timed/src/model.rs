@@ -3,7 +3,7 @@
 
 use foveate_design::Design;
 use foveate_engine::{Engine, EngineOptions};
-use foveate_frame::FramePixels;
+use foveate_pixels::FramePixels;
 
 use crate::clocks::FrameClocks;
 use crate::delivery::NEVER;

@@ -5,7 +5,7 @@
 use std::ops::Range;
 
 use foveate_engine::Engine;
-use foveate_frame::FramePixels;
+use foveate_pixels::FramePixels;
 
 use crate::SentKind;
 

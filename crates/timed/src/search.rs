@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The search for frames in the stream of beats, by the rules of `docs/sync.md`.
 
-use foveate_frame::FramePixels;
+use foveate_pixels::FramePixels;
 
 use crate::BeatOffer;
 use crate::payload::KeptPixels;

@@ -52,7 +52,7 @@ impl RowSensor {
 #[cfg(test)]
 mod tests {
     use foveate_design::DesignConfig;
-    use foveate_frame::FramePixels;
+    use foveate_pixels::FramePixels;
 
     use super::*;
     use crate::{FrameDelivery, ReadySink, TimedModel, Transaction};

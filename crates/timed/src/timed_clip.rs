@@ -2,7 +2,7 @@
 //! The clocks of a clip: whole frames at their times in, rows of clocks out.
 
 use foveate_design::Design;
-use foveate_frame::FramePixels;
+use foveate_pixels::FramePixels;
 
 use crate::{
     BeatOffer, ClockRow, FrameDelivery, FrameTraffic, SinkPattern, TimedError, TimedModel,

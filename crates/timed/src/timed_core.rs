@@ -4,7 +4,7 @@
 use std::fmt::Debug;
 
 use foveate_engine::Engine;
-use foveate_frame::FramePixels;
+use foveate_pixels::FramePixels;
 
 use crate::{BeatOffer, Sink, Transaction};
 

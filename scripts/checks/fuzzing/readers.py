@@ -297,7 +297,7 @@ READERS = [
     Reader("space", "space.toml", space, text_of("crates/explore/spaces/approximations.toml"), is_text=True),
     Reader("board", "board.toml", board, text_of("crates/boards/boards/icebreaker.toml"), is_text=True),
     Reader("board-sensor", "sensor.toml", sensor_of_board, text_of("crates/boards/sensors/ov7670-qvga.toml"), is_text=True),
-    Reader("accelerator", "accelerator.toml", accelerator, text_of("crates/accelerator/presets/eyeriss.toml"), is_text=True),
+    Reader("accelerator", "accelerator.toml", accelerator, text_of("crates/network/presets/eyeriss.toml"), is_text=True),
     Reader("liberty", "cells.lib", cells, constant_sample(library()), is_text=True, sample_answer=Answer.REFUSED),
     Reader("zone-map", "map.pgm", zones, constant_sample(class_map())),
     Reader("png", "picture.png", simulate, picture(container="png")),

@@ -13,8 +13,8 @@ CHANGELOG = "# Changelog\n\n## [1.2.3] - 2026-11-25\n### Added\n- A thing.\n\n##
 
 
 def manifest(**package):
-    dependency = {"path": "crates/frame", "version": "=1.2.3"}
-    return {"workspace": {"package": {"version": "1.2.3", "repository": "https://here", **package}, "dependencies": {"foveate-frame": dependency}}}
+    dependency = {"path": "crates/pixels", "version": "=1.2.3"}
+    return {"workspace": {"package": {"version": "1.2.3", "repository": "https://here", **package}, "dependencies": {"foveate-pixels": dependency}}}
 
 
 def pyproject(**project):
@@ -35,9 +35,9 @@ class VersionTests(unittest.TestCase):
 
     def test_every_place_is_looked_at(self):
         older = manifest()
-        older["workspace"]["dependencies"]["foveate-frame"]["version"] = "1.2.3"
+        older["workspace"]["dependencies"]["foveate-pixels"]["version"] = "1.2.3"
         for changed, word in [
-            ({"manifest_table": older}, 'foveate-frame is of version 1.2.3; it has to be "=1.2.3"'),
+            ({"manifest_table": older}, 'foveate-pixels is of version 1.2.3; it has to be "=1.2.3"'),
             ({"project": pyproject(dynamic=[])}, "pyproject.toml"),
             ({"citation": CITATION.replace("1.2.3", "1.2.4")}, "CITATION.cff: version is 1.2.4"),
             # This is not the version of the format.
@@ -61,9 +61,9 @@ class VersionTests(unittest.TestCase):
 
     def test_a_crate_without_licences_or_with_a_link_to_elsewhere_is_unfit(self):
         with tempfile.TemporaryDirectory() as elsewhere, tempfile.TemporaryDirectory() as project:
-            folder = pathlib.Path(project, "crates/frame")
+            folder = pathlib.Path(project, "crates/pixels")
             folder.mkdir(parents=True)
-            (folder / "Cargo.toml").write_text('[package]\nname = "foveate-frame"\ndescription = "A frame"\n')
+            (folder / "Cargo.toml").write_text('[package]\nname = "foveate-pixels"\ndescription = "A frame"\n')
             self.assertEqual(len(list(versions.missing_files(folder))), 2)
             for name in versions.LICENSES:
                 (pathlib.Path(project) / name).write_text("")

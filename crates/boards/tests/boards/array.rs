@@ -9,13 +9,15 @@ use std::sync::OnceLock;
 
 use crate::common::{array_on, compile, verilog};
 use foveate_boards::{Board, BoardProject};
-use foveate_design::{Camera, IrrelevantRendering, ReferencePolicy, RegionAction};
+use foveate_camera::{Camera, IrrelevantRendering, ReferencePolicy, RegionAction};
 use foveate_emit::{Register, array_table};
-use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
 use foveate_packets::{Packet, PacketSplitter, RegisterCommand, StreamItem};
-use foveate_toolchain::testing::{require_tools, sample};
-use foveate_toolchain::{Source, Tool};
+use foveate_pixels::Frame;
+use foveate_tools::{
+    Source, Tool,
+    testing::{require_tools, sample},
+};
 
 const BENCH: &str = include_str!("array.cpp");
 const WRAPPER: &str = include_str!("array_bench.v");

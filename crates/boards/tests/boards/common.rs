@@ -7,8 +7,10 @@ use std::process::{Command, Stdio};
 
 use foveate_boards::{Board, BoardError, BoardProject};
 use foveate_design::{DesignConfig, Preset};
-use foveate_toolchain::verilator::{self, LintMode, VerilatorJob};
-use foveate_toolchain::{Cache, Source, Toolchain};
+use foveate_tools::{
+    Cache, Source, Toolchain,
+    verilator::{self, LintMode, VerilatorJob},
+};
 
 const BENCH: &str = include_str!("board_bench.v");
 const SENSOR: &str = include_str!("sensor.cpp");

@@ -9,8 +9,10 @@ use crate::common::{PlantedFault, compile, verilog};
 use foveate_boards::{Board, BoardProject};
 use foveate_design::DesignConfig;
 use foveate_packets::{Packet, PacketLayout, PacketSplitter, RegisterCommand, StreamItem};
-use foveate_toolchain::Tool;
-use foveate_toolchain::testing::{require_tools, sample};
+use foveate_tools::{
+    Tool,
+    testing::{require_tools, sample},
+};
 
 const BENCH: &str = include_str!("pattern.cpp");
 /// The number of clocks with the serial line, after an LED is on.

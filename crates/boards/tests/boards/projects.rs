@@ -11,8 +11,11 @@ use std::process::Command;
 use crate::common::{array, has_tclsh, verilog};
 use foveate_boards::{Board, BoardError, BoardProject, build, write_project};
 use foveate_design::DesignConfig;
-use foveate_toolchain::testing::{require_tools, sample};
-use foveate_toolchain::{Tool, Toolchain, verilator};
+use foveate_tools::{
+    Tool, Toolchain,
+    testing::{require_tools, sample},
+    verilator,
+};
 
 /// Returns a board with changed keys of its design.
 fn project(name: &str, keys: &[&str]) -> Result<BoardProject, BoardError> {

@@ -3,7 +3,7 @@
 //! are written from `docs/boards.md` and `docs/axi.md`.
 
 use foveate_boards::{LogicLevel, PixelFormat, Sensor};
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 
 /// The damage of the second frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -7,14 +7,16 @@ use crate::sensor_signals::{Damage, SensorWires, expected_frames, frames};
 use foveate_boards::{BoardProject, Sensor};
 use foveate_design::Design;
 use foveate_emit::axi_registers;
-use foveate_frame::Frame;
 use foveate_model::FunctionalCamera;
 use foveate_packets::{
     Packet, PacketLayout, PacketSplitter, RegionPacket, RegisterCommand, RegisterPacket, RowPacket,
     StreamItem,
 };
-use foveate_toolchain::Tool;
-use foveate_toolchain::testing::{require_tools, sample};
+use foveate_pixels::Frame;
+use foveate_tools::{
+    Tool,
+    testing::{require_tools, sample},
+};
 use std::path::Path;
 
 /// The period of the pixel clock in picoseconds at which all regions of a frame can leave.

@@ -10,8 +10,10 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use foveate_boards::{Board, BoardError, BoardProject, write_project};
-use foveate_toolchain::Tool;
-use foveate_toolchain::testing::{require_tools, sample};
+use foveate_tools::{
+    Tool,
+    testing::{require_tools, sample},
+};
 use toml::{Table, Value};
 
 use crate::common::has_tclsh;

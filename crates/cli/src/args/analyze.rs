@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
-use foveate_studies::Study;
+use foveate_explore::studies::Study;
 
 use super::DesignArgs;
 use super::input::InputArgs;

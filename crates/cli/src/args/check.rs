@@ -5,8 +5,8 @@ use std::fmt;
 use std::path::PathBuf;
 
 use clap::Args;
-use foveate_design::Decimal;
-use foveate_link::LinkRate;
+use foveate_camera::Decimal;
+use foveate_explore::link::LinkRate;
 
 use super::DesignArgs;
 use super::input::InputArgs;

@@ -2,9 +2,8 @@
 //! The frames of the inputs, for commands that hold all of them in memory.
 
 use foveate_design::Design;
-use foveate_footage::InputOptions;
-use foveate_frame::Frame;
-use foveate_playback::{ClipPlayer, PlaybackError};
+use foveate_media::{ClipPlayer, InputOptions, PlaybackError};
+use foveate_pixels::Frame;
 
 use super::{DesignArgs, warn_about_inputs};
 use crate::error::CliError;

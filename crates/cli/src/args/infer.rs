@@ -5,12 +5,11 @@ use std::num::NonZeroU32;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use foveate_accelerator::Accelerator;
 use foveate_inference::{
     Computation, NOISE_LEVELS, RecordOptions, TuningGoal, parse_goal, parse_mode, parse_noise,
     read_accelerator,
 };
-use foveate_network::ExecutionMode;
+use foveate_network::{ExecutionMode, accelerator::Accelerator};
 
 use super::DesignArgs;
 use super::input::InputArgs;

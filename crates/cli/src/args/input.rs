@@ -4,12 +4,12 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use foveate_footage::{
+use foveate_media::{
     BayerPattern, ClipPlan, CropRect, FrameRate, FrameSelection, ImageRelation, InputOptions,
     InputWarnings, LumaRange, MAX_SIDE, Orientation, RawLayout, TimestampUnit, TimestampsFile,
     input_warnings, parse_time, plan,
 };
-use foveate_staging::{FolderKind, StagedFolder};
+use foveate_tools::{FolderKind, StagedFolder};
 
 use super::at_least_one;
 use crate::error::CliError;

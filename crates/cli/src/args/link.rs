@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
-use foveate_link::{Codec, EncoderPreset, LinkRate};
+use foveate_explore::link::{Codec, EncoderPreset, LinkRate};
 
 use super::input::InputArgs;
 use super::{ClockFrequency, DesignArgs};

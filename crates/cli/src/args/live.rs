@@ -5,8 +5,8 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 
 use clap::Args;
-use foveate_footage::ImageRelation;
-use foveate_view::PlayerOptions;
+use foveate_boards::view::PlayerOptions;
+use foveate_media::ImageRelation;
 
 use super::{DesignArgs, InputArgs};
 use crate::error::CliError;

@@ -2,7 +2,7 @@
 //! The options of `simulate` that say what is written.
 
 use clap::{Args, ValueEnum};
-use foveate_design::Decimal;
+use foveate_camera::Decimal;
 use foveate_simulator::{EventTableOptions, OverlayStyle, PixelEventOptions, RunOptions};
 
 use super::pixel_event_format::{PixelEventFormat, PixelEventFormatParser};

@@ -5,7 +5,7 @@ use std::net::SocketAddr;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use foveate_view::{PlayMode, ViewOptions};
+use foveate_boards::view::{PlayMode, ViewOptions};
 
 use super::{DesignArgs, at_least_one};
 use crate::error::CliError;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `foveate analyze`: the paper's studies as tables and charts.
 
-use foveate_footage::ImageRelation;
-use foveate_studies::{STUDY_FOLDER, Study, StudyReport, StudyRequest, analyze};
+use foveate_explore::studies::{STUDY_FOLDER, Study, StudyReport, StudyRequest, analyze};
+use foveate_media::ImageRelation;
 
 use crate::args::{AnalyzeArgs, check_output, warn_about_inputs};
 use crate::error::CliError;

@@ -8,9 +8,9 @@ use std::time::Duration;
 
 use foveate_cosim::{Benchmark, BenchmarkReport, ExternalTools, random_frames};
 use foveate_design::Design;
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 use foveate_simulator::SimulatorError;
-use foveate_toolchain::Cache;
+use foveate_tools::Cache;
 
 use crate::args::BenchArgs;
 use crate::error::CliError;

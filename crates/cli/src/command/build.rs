@@ -6,8 +6,8 @@ use std::path::Path;
 
 use foveate_boards::{Board, BoardProject, BuildResult, PROJECT_FOLDER, build, write_project};
 use foveate_design::{DesignConfig, Preset};
-use foveate_footage::read_class_map;
-use foveate_staging::StagedFolder;
+use foveate_media::read_class_map;
+use foveate_tools::StagedFolder;
 use serde::Serialize;
 
 use crate::args::BuildArgs;
@@ -76,7 +76,7 @@ pub(crate) fn run(args: &BuildArgs) -> Result<(), CliError> {
 /// `--set`.
 fn configuration(board: &Board, args: &BuildArgs) -> Result<DesignConfig, CliError> {
     let text = match (&args.config, &args.preset) {
-        (Some(file), _) => foveate_reading::read_settings(file)
+        (Some(file), _) => foveate_tools::read_settings(file)
             .map_err(CliError::io("read the configuration", file))?,
         (None, Some(name)) => Preset::find(name)?.toml.to_owned(),
         (None, None) => board.config()?.to_toml(),

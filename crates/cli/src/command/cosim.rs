@@ -11,8 +11,7 @@ use foveate_cosim::{
     unsimulated_modules,
 };
 use foveate_emit::AXI_TOP;
-use foveate_staging::{StagedFolder, check_file, write_file};
-use foveate_toolchain::{Cache, Toolchain};
+use foveate_tools::{Cache, StagedFolder, Toolchain, check_file, write_file};
 use serde::Serialize;
 
 use crate::args::CosimArgs;

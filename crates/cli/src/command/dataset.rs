@@ -2,7 +2,7 @@
 //! `foveate dataset`: a set of images in, the set of their active regions out. The command is a
 //! simulation that writes the set instead of pictures.
 
-use foveate_footage::ImageRelation;
+use foveate_media::ImageRelation;
 use foveate_simulator::RunOptions;
 
 use super::simulate::{SimulationJob, run_job};

@@ -5,7 +5,7 @@ use std::io::Read;
 use std::path::Path;
 
 use foveate_simulator::{DecodedRecording, PacketRecording, RunOptions, SIMULATION_FOLDER};
-use foveate_toolchain::{InterruptibleReader, open_interruptibly, standard_input};
+use foveate_tools::{InterruptibleReader, open_interruptibly, standard_input};
 
 use super::simulate::text;
 use crate::args::{DecodeArgs, check_output};

@@ -8,7 +8,7 @@ mod silicon;
 mod synthesis;
 
 use foveate_estimate::{render_markdown, render_text};
-use foveate_toolchain::Cache;
+use foveate_tools::Cache;
 
 use crate::args::EstimateArgs;
 use crate::error::CliError;

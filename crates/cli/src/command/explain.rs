@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `foveate explain`: why a region was sent or dropped.
 
-use foveate_footage::ImageRelation;
-use foveate_playback::ClipPlayer;
+use foveate_media::{ClipPlayer, ImageRelation};
 use foveate_simulator::explain_region;
 
 use crate::args::{ExplainArgs, refuse_several_clips, warn_about_inputs};

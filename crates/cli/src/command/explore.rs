@@ -10,8 +10,7 @@ use foveate_explore::{
     BUILT_IN_SPACES, DesignSpace, Exploration, ExploreError, ExploreRequest, ProcessRequest,
     SynthesisRequest, check_folder, explore,
 };
-use foveate_footage::ImageRelation;
-use foveate_playback::PlaybackError;
+use foveate_media::{ImageRelation, PlaybackError};
 
 use crate::args::{ExploreArgs, warn_about_inputs};
 use crate::error::CliError;
@@ -95,7 +94,7 @@ fn read_space(file: &Path) -> Result<String, CliError> {
     match built_in.filter(|_| !file.is_file()) {
         Some(space) => Ok(space.toml.to_owned()),
         None if file.exists() => {
-            foveate_reading::read_settings(file).map_err(CliError::io("read", file))
+            foveate_tools::read_settings(file).map_err(CliError::io("read", file))
         }
         None => {
             let names: Vec<&str> = BUILT_IN_SPACES.iter().map(|space| space.name).collect();

@@ -8,10 +8,9 @@ use foveate_explore::{
     AgreementEstimate, ConstraintCheck, ExploreError, FidelityFigures, FitRequest, FitResult,
     FittedDesign, FittedNetwork, ProcessEnergy, ProcessFigures, fit,
 };
-use foveate_footage::ImageRelation;
 use foveate_inference::NoiseAgreement;
-use foveate_playback::PlaybackError;
-use foveate_staging::{check_file, write_file};
+use foveate_media::{ImageRelation, PlaybackError};
+use foveate_tools::{check_file, write_file};
 
 use crate::agreement_text::{grey_levels, interval_text, noise_text};
 use crate::args::{FitArgs, warn_about_inputs};

@@ -4,7 +4,7 @@
 use foveate_cosim::{CORE, ShippedBench, write_core};
 use foveate_design::Design;
 use foveate_emit::Prefix;
-use foveate_staging::StagedFolder;
+use foveate_tools::StagedFolder;
 use serde::Serialize;
 
 use crate::args::GenerateArgs;

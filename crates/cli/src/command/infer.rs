@@ -7,11 +7,11 @@ use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use foveate_footage::{ImageRelation, input_without_secrets};
 use foveate_inference::{
     ClipSummary, DetectionCounts, INFERENCE_FOLDER, Inference, InferenceOptions, InferenceSummary,
     TuningSummary, WholeFrameAgreement, is_array,
 };
+use foveate_media::{ImageRelation, input_without_secrets};
 use indicatif::DecimalBytes;
 
 use crate::agreement_text::{grey_levels, interval_text, noise_text};

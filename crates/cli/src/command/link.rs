@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `foveate link`: a comparison of what a camera sends over a link with codecs at equal quality.
 
-use foveate_footage::ImageRelation;
-use foveate_link::{LINK_FOLDER, LinkRequest, compare};
+use foveate_explore::link::{LINK_FOLDER, LinkRequest, compare};
+use foveate_media::ImageRelation;
 
 use crate::args::{LinkArgs, check_output, warn_about_inputs};
 use crate::error::CliError;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `foveate live`: a page with a camera in the browser, until Ctrl-C.
 
-use foveate_staging::write_file;
-use foveate_view::{Player, camera_page};
+use foveate_boards::view::{Player, camera_page};
+use foveate_tools::write_file;
 
 use crate::args::{LiveArgs, refuse_several_clips, warn_about_inputs};
 use crate::error::CliError;

@@ -4,7 +4,7 @@
 use std::fs;
 
 use clap::CommandFactory;
-use foveate_staging::{ScratchFolder, write_file};
+use foveate_tools::{ScratchFolder, write_file};
 
 use crate::args::{Cli, ManArgs};
 use crate::error::CliError;

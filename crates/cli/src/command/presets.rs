@@ -2,7 +2,7 @@
 //! `foveate presets`: the presets and scenes to start from.
 
 use foveate_design::{DesignConfig, PRESETS, Preset};
-use foveate_scenes::Scene;
+use foveate_pixels::Scene;
 use serde::Serialize;
 
 use crate::args::PresetsArgs;

@@ -4,8 +4,7 @@
 use std::path::Path;
 
 use foveate_design::DesignConfig;
-use foveate_footage::{ClipPlan, ImageRelation, InputOptions, plan};
-use foveate_playback::ClipPlayer;
+use foveate_media::{ClipPlan, ClipPlayer, ImageRelation, InputOptions, plan};
 use foveate_simulator::{
     BandwidthComparison, BatchSummary, CameraTraffic, ClockFigures, DataSetPaths, RunOptions,
     RunSummary, SIMULATION_FOLDER, Simulation, run_batch,

@@ -6,9 +6,8 @@ use std::sync::atomic::Ordering;
 use foveate_explore::{
     DisturbanceRow, DisturbedDesign, ErrorSourceRow, ExploreError, disturb_design,
 };
-use foveate_footage::ImageRelation;
-use foveate_playback::PlaybackError;
-use foveate_stress::{CaseRow, RunDepth};
+use foveate_measure::stress::{CaseRow, RunDepth};
+use foveate_media::{ImageRelation, PlaybackError};
 use serde::Serialize;
 
 use crate::args::{DesignArgs, StressArgs, warn_about_inputs};
@@ -47,7 +46,8 @@ pub(crate) fn run(args: &StressArgs) -> Result<(), CliError> {
     let progress = Progress::new(args.quiet);
     let done = |done: usize, all: usize| progress.report_steps("cases", done as u64, all as u64);
     let depth = if args.short { RunDepth::Short } else { RunDepth::Full };
-    let rows = foveate_stress::run_cases(depth, &done, &|| interrupted.load(Ordering::Relaxed));
+    let rows =
+        foveate_measure::stress::run_cases(depth, &done, &|| interrupted.load(Ordering::Relaxed));
     progress.finish();
     let broken = rows.iter().filter(|row| !row.is_as_expected).count();
     let holds = broken == 0 && !interrupted.load(Ordering::Relaxed);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `foveate view`: packets in, a page in the browser out, until Ctrl-C.
 
-use foveate_view::View;
+use foveate_boards::view::View;
 
 use crate::args::ViewArgs;
 use crate::error::CliError;

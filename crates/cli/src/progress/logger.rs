@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use foveate_playback::ProgressStage;
+use foveate_media::ProgressStage;
 
 use super::lock_stage;
 use super::stage_text::log_line;

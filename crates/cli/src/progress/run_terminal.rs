@@ -6,8 +6,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use foveate_explore::{Synthesizer, TargetProcess};
-use foveate_playback::{RunHooks, RunProgress};
-use foveate_toolchain::{Cache, Interrupt, Tool, Toolchain};
+use foveate_media::{RunHooks, RunProgress};
+use foveate_tools::{Cache, Interrupt, Tool, Toolchain};
 
 use super::Progress;
 use crate::args::ProcessArgs;

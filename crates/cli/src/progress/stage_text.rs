@@ -3,7 +3,7 @@
 
 use std::time::{Duration, Instant};
 
-use foveate_playback::{ProgressStage, ProgressUnit, RemainingTime, StageAmount};
+use foveate_media::{ProgressStage, ProgressUnit, RemainingTime, StageAmount};
 use indicatif::{HumanCount, HumanDuration};
 use textwrap::core::display_width;
 
@@ -105,7 +105,7 @@ fn rate_text(rate: f64, counted: ProgressUnit) -> String {
 
 #[cfg(test)]
 mod tests {
-    use foveate_playback::RunProgress;
+    use foveate_media::RunProgress;
 
     use super::*;
 

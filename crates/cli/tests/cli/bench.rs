@@ -2,8 +2,7 @@
 //! Tests of `bench`, end to end, with the tools and without.
 
 use crate::common::{expect_failure, foveate, run_successfully};
-use foveate_toolchain::Tool;
-use foveate_toolchain::testing::require_tools;
+use foveate_tools::{Tool, testing::require_tools};
 use serde_json::Value;
 
 const TINY: [&str; 5] = ["bench", "--set", "frame={width=16,height=16}", "--seconds", "0.01"];

@@ -7,8 +7,10 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::common::{expect_failure, run_in, run_successfully};
-use foveate_toolchain::testing::{require_tools, takes_whole_lists};
-use foveate_toolchain::{Tool, Toolchain};
+use foveate_tools::{
+    Tool, Toolchain,
+    testing::{require_tools, takes_whole_lists},
+};
 
 /// Writes a small core on AXI into `core`.
 fn core(folder: &Path) {

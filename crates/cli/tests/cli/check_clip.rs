@@ -6,8 +6,10 @@ use std::fs;
 use std::path::Path;
 
 use crate::common::{expect_failure, run_in, run_successfully};
-use foveate_toolchain::Tool;
-use foveate_toolchain::testing::{require_tools, sample};
+use foveate_tools::{
+    Tool,
+    testing::{require_tools, sample},
+};
 use serde_json::Value;
 
 /// The options of a scene of six small frames.

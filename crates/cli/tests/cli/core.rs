@@ -6,8 +6,10 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::common::run_successfully;
-use foveate_toolchain::Tool;
-use foveate_toolchain::testing::{require_tools, sample, takes_whole_lists};
+use foveate_tools::{
+    Tool,
+    testing::{require_tools, sample, takes_whole_lists},
+};
 
 /// Runs `tb/replay.sh` as the README says, without Foveate. Returns its exit code and its output.
 fn replay(core: &Path, args: &[&str]) -> (Option<i32>, String) {

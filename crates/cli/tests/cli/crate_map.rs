@@ -76,9 +76,8 @@ fn the_map_is_what_the_manifests_say() {
 #[test]
 fn the_crates_of_the_camera_cannot_see_hardware() {
     let imports = manifests();
-    let mut reached = BTreeSet::from(
-        ["camera", "engine", "fidelity", "footage", "ideal", "network"].map(String::from),
-    );
+    let mut reached =
+        BTreeSet::from(["camera", "engine", "ideal", "media", "network"].map(String::from));
     loop {
         let more: BTreeSet<String> =
             reached.iter().flat_map(|name| &imports[name]).cloned().collect();
@@ -97,14 +96,14 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
     files.collect()
 }
 
-/// Frames are taken from a source in one place, `playback`, so that every command reads ahead,
+/// Frames are taken from a source in one place, the playback of `media`, so that every command reads ahead,
 /// gives memory back, resets cameras and stops in the same way.
 #[test]
 fn only_the_playback_takes_frames_from_a_source() {
     let python = crates().join("../python");
     let folders = manifests().into_keys().map(|name| crates().join(name)).chain([python]);
-    let own = ["footage", "playback"].map(|name| crates().join(name).join("src"));
-    let files = folders.map(|folder| folder.join("src")).filter(|folder| !own.contains(folder));
+    let own = crates().join("media/src");
+    let files = folders.map(|folder| folder.join("src")).filter(|folder| *folder != own);
     for file in files.flat_map(|folder| sources(&folder)) {
         let text = fs::read_to_string(&file).unwrap_or_default();
         assert!(!text.contains(".next_frame()"), "{} takes frames itself", file.display());

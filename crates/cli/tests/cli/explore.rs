@@ -5,8 +5,10 @@ use std::fs;
 use std::path::Path;
 
 use crate::common::{expect_failure, files_below, run_in, run_successfully};
-use foveate_toolchain::Tool;
-use foveate_toolchain::testing::{require_tools, takes_whole_lists};
+use foveate_tools::{
+    Tool,
+    testing::{require_tools, takes_whole_lists},
+};
 
 const SPACE: &str = "method = 'each'\n[design]\nframe.width = 64\nframe.height = 48\n[ideal]\n\
      region.neighborhood = 'shared'\n[vary]\nframe.pixel_bits = [6, 4]\nregion.neighborhood = ['shared']\n\

@@ -7,8 +7,10 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::common::{expect_failure, foveate, run_in};
-use foveate_toolchain::Tool;
-use foveate_toolchain::testing::{data_folder, require_tools};
+use foveate_tools::{
+    Tool,
+    testing::{data_folder, require_tools},
+};
 
 fn ffmpeg(folder: &Path, args: &str) {
     let args = args.split_whitespace();

@@ -8,8 +8,10 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 use crate::common::files_below;
-use foveate_toolchain::Tool;
-use foveate_toolchain::testing::{report_skip, require_tools};
+use foveate_tools::{
+    Tool,
+    testing::{report_skip, require_tools},
+};
 use serde_json::Value;
 
 /// Runs a command on a file system of `kib` KiB, and copies the files that are left to the returned

@@ -6,8 +6,10 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::common::{expect_failure, foveate, run_in, run_successfully};
-use foveate_toolchain::Tool;
-use foveate_toolchain::testing::{data_folder, require_tools, sampling_step, takes_whole_lists};
+use foveate_tools::{
+    Tool,
+    testing::{data_folder, require_tools, sampling_step, takes_whole_lists},
+};
 use serde_json::Value;
 
 const SIMULATORS: &[Tool] = &[Tool::Verilator, Tool::Cxx, Tool::Iverilog, Tool::Vvp];

@@ -8,8 +8,10 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::common::{run_in, run_successfully};
-use foveate_toolchain::Tool;
-use foveate_toolchain::testing::{require_tools, takes_whole_lists};
+use foveate_tools::{
+    Tool,
+    testing::{require_tools, takes_whole_lists},
+};
 
 /// The examples that are not run here. They take minutes or need what is not shipped, other tests
 /// cover them, and `examples` in the sources checks that the command line accepts them.

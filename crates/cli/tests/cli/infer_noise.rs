@@ -6,8 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::common::{run_in, run_successfully};
-use foveate_toolchain::Tool;
-use foveate_toolchain::testing::require_tools;
+use foveate_tools::{Tool, testing::require_tools};
 use serde_json::Value;
 
 const DENOISER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/denoiser.onnx");

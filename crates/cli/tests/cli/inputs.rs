@@ -8,8 +8,7 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::common::{expect_failure, foveate, run_in, run_successfully};
-use foveate_toolchain::Tool;
-use foveate_toolchain::testing::require_tools;
+use foveate_tools::{Tool, testing::require_tools};
 use serde_json::Value;
 
 /// Returns a stream of `frames` frames of 16x16 pixels, 25 per second.

@@ -5,8 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::common::{expect_failure, files_below, run_in, run_successfully};
-use foveate_toolchain::Tool;
-use foveate_toolchain::testing::require_tools;
+use foveate_tools::{Tool, testing::require_tools};
 use serde_json::Value;
 
 const FRAME: &str = "frame={width=160,height=120}";

@@ -7,8 +7,10 @@ use std::fs;
 use std::path::Path;
 
 use crate::common::{foveate, run_in, run_successfully};
-use foveate_toolchain::Tool;
-use foveate_toolchain::testing::{require_tools, takes_whole_lists};
+use foveate_tools::{
+    Tool,
+    testing::{require_tools, takes_whole_lists},
+};
 
 /// Returns every option of every command with this value name, as `command --option`.
 pub(crate) fn options_of(value: &str) -> BTreeSet<String> {
@@ -371,7 +373,7 @@ fn a_cache_that_others_can_write_is_refused() {
     assert_eq!(run("FOVEATE_CACHE", &cache).status.code(), Some(0));
     assert!(fs::read_dir(&cache).unwrap().count() > 0);
     if std::os::unix::fs::chown(&cache, Some(54_321), None).is_err() {
-        return foveate_toolchain::testing::report_skip("only root can give a folder away");
+        return foveate_tools::testing::report_skip("only root can give a folder away");
     }
     let said = run("FOVEATE_CACHE", &cache);
     let text = String::from_utf8(said.stderr).unwrap();

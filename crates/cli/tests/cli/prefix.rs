@@ -6,8 +6,10 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::common::{expect_failure, run_in, run_successfully};
-use foveate_toolchain::Tool;
-use foveate_toolchain::testing::{require_tools, sample};
+use foveate_tools::{
+    Tool,
+    testing::{require_tools, sample},
+};
 
 /// Writes a small core with a prefix into a folder of the same name.
 fn core(folder: &Path, prefix: &str, settings: &[&str]) {

@@ -6,8 +6,7 @@
 use std::fs;
 use std::process::Command;
 
-use foveate_toolchain::Tool;
-use foveate_toolchain::testing::require_tools;
+use foveate_tools::{Tool, testing::require_tools};
 
 use crate::common::{files_below, foveate};
 

@@ -8,8 +8,7 @@ use std::path::Path;
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
-use foveate_toolchain::Tool;
-use foveate_toolchain::testing::require_tools;
+use foveate_tools::{Tool, testing::require_tools};
 use serde_json::Value;
 
 use crate::common::foveate_with_signals;

@@ -8,8 +8,10 @@ use std::path::{Path, PathBuf};
 
 use flate2::Compression;
 use flate2::write::GzEncoder;
-use foveate_toolchain::testing::{require_tools, sampling_step, takes_whole_lists};
-use foveate_toolchain::{Tool, Toolchain};
+use foveate_tools::{
+    Tool, Toolchain,
+    testing::{require_tools, sampling_step, takes_whole_lists},
+};
 use serde_json::Value;
 
 use crate::common::silicon::{LIBRARY, is_ready, number};

@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use foveate_toolchain::{Tool, Toolchain};
+use foveate_tools::{Tool, Toolchain};
 use serde_json::Value;
 
 use crate::common::silicon::{LIBRARY, is_ready, number, write_long_clip};

@@ -112,7 +112,7 @@ fn ctrl_c_leaves_what_was_done() {
 /// This test uses real images, if the environment variable FOVEATE_DATA names their folder.
 #[test]
 fn real_images_run() {
-    let Some(data) = foveate_toolchain::testing::data_folder() else {
+    let Some(data) = foveate_tools::testing::data_folder() else {
         return;
     };
     let folder = data.join("mosquito/aedes");

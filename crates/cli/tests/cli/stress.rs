@@ -2,7 +2,7 @@
 //! Tests of `stress`, end to end.
 
 use crate::common::run_successfully;
-use foveate_toolchain::testing::takes_whole_lists;
+use foveate_tools::testing::takes_whole_lists;
 use serde_json::Value;
 
 #[test]

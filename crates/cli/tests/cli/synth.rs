@@ -6,8 +6,7 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::common::run_successfully;
-use foveate_toolchain::testing::require_tools;
-use foveate_toolchain::{Tool, Toolchain};
+use foveate_tools::{Tool, Toolchain, testing::require_tools};
 use serde_json::Value;
 
 /// Returns the slowest clock that a script prints for several seeds.

@@ -6,7 +6,7 @@ use std::io::{Read as _, Write as _};
 use std::process::{ChildStdin, Command, Stdio};
 use std::time::Duration;
 
-use foveate_toolchain::testing::takes_whole_lists;
+use foveate_tools::testing::takes_whole_lists;
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 use rustix::termios::{Winsize, tcsetwinsize};
 

@@ -6,8 +6,10 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use foveate_toolchain::Tool;
-use foveate_toolchain::testing::{require_tools, takes_whole_lists};
+use foveate_tools::{
+    Tool,
+    testing::{require_tools, takes_whole_lists},
+};
 use roxmltree::{Document, ParsingOptions};
 
 use crate::common::{expect_failure, files_below, foveate};

@@ -4,8 +4,8 @@
 use std::hint::black_box;
 
 use foveate_design::{Design, Organization};
-use foveate_frame::Frame;
 use foveate_model::rcm_model;
+use foveate_pixels::Frame;
 
 use super::benchmark_report::{BenchmarkLevel, LevelMeasurement, LevelRow};
 use super::clock_rates::clock_rates;

@@ -3,7 +3,7 @@
 
 use std::time::Duration;
 
-use foveate_toolchain::{Cache, Toolchain};
+use foveate_tools::{Cache, Toolchain};
 
 pub(super) const RUN_TIME_LIMIT: Duration = Duration::from_secs(3600);
 

@@ -6,8 +6,8 @@ use std::hint::black_box;
 
 use foveate_design::Design;
 use foveate_engine::{Engine, EngineOptions, InstructionSet as Instructions};
-use foveate_frame::Frame;
 use foveate_model::FunctionalCamera;
+use foveate_pixels::Frame;
 
 use super::benchmark_report::{BenchmarkLevel, LevelMeasurement, LevelRow};
 use super::pass_timer::{PassTimer, PassTimes};

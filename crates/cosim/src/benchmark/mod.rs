@@ -42,8 +42,8 @@ pub use random_frames::random_frames;
 use std::time::Duration;
 
 use foveate_design::Design;
-use foveate_frame::Frame;
-use foveate_toolchain::{Tool, Toolchain};
+use foveate_pixels::Frame;
+use foveate_tools::{Tool, Toolchain};
 
 use self::pass_timer::PassTimer;
 use self::unpacked_inputs::UnpackedInputs;

@@ -2,11 +2,11 @@
 //! The netlist that Yosys makes of one RPU, of one serial lane, or of a small raster core,
 //! simulated in Icarus with the first regions of the same frames.
 
-use foveate_staging::ScratchFolder;
+use foveate_tools::ScratchFolder;
 use std::time::Instant;
 
 use foveate_design::{ArrayStructure, Design};
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 
 use super::benchmark_report::{BenchmarkLevel, LevelMeasurement, LevelRow};
 use super::external_tools::{ExternalTools, RUN_TIME_LIMIT};

@@ -3,8 +3,8 @@
 //! region of every frame, at whatever clock they come.
 
 use foveate_design::{BeatRegion, Design, PortRole, StreamRole};
-use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
+use foveate_pixels::Frame;
 
 use super::unpacked_inputs::{field_of_role, for_each_clock};
 use crate::error::CosimError;

@@ -4,7 +4,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use foveate_toolchain::ToolError;
+use foveate_tools::ToolError;
 
 use crate::error::CosimError;
 

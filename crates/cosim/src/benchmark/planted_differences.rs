@@ -7,9 +7,8 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use foveate_design::{Design, DesignConfig, Preset};
-use foveate_frame::Frame;
-use foveate_toolchain::testing::require_tools;
-use foveate_toolchain::{Cache, Tool, Toolchain};
+use foveate_pixels::Frame;
+use foveate_tools::{Cache, Tool, Toolchain, testing::require_tools};
 
 use super::benchmark_report::LevelRow;
 use super::external_tools::ExternalTools;

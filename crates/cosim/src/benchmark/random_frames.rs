@@ -2,7 +2,7 @@
 //! Frames of random pixels, on which no level can skip work.
 
 use foveate_design::Design;
-use foveate_frame::{Frame, FrameError};
+use foveate_pixels::{Frame, FrameError};
 
 /// Returns `count` frames with the size and depth of the design and random pixels. Equal seeds give
 /// equal frames.

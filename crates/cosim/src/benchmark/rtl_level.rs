@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use foveate_design::Design;
-use foveate_toolchain::verilator::OptimizationLevel;
+use foveate_tools::verilator::OptimizationLevel;
 
 use super::benchmark_report::{BenchmarkLevel, LevelMeasurement, LevelRow};
 use super::clock_rates::clock_rates;

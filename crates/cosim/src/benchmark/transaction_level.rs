@@ -6,7 +6,7 @@ use std::ops::Range;
 
 use foveate_design::{Design, Hardware, PortRole};
 use foveate_engine::{EngineOptions, FrameOutcome};
-use foveate_frame::{ByteFrame, Frame};
+use foveate_pixels::{ByteFrame, Frame};
 use foveate_timed::{
     BeatOffer, DecisionRun, FrameDelivery, ReadySink, StallList, TimedModel, Transaction, WordRun,
 };

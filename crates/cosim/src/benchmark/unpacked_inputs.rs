@@ -3,7 +3,8 @@
 
 use std::io::Read as _;
 
-use foveate_design::{Design, PortRole, RegionClass};
+use foveate_camera::RegionClass;
+use foveate_design::{Design, PortRole};
 use foveate_model::{ClassMapInputs, CoreInput, ThresholdInputs, ZoneInputs};
 
 use crate::error::CosimError;

@@ -10,7 +10,8 @@ use super::port_record::{BusRecord, InterruptCount, RecordedPacket, SessionRecor
 use super::thresholds::StaleThreshold;
 use super::traffic::{BusSession, ExpectedEventCount, ExpectedFrame, ExpectedRead, FrameFate};
 use crate::situations::{BusSituationCounts, EVENTS};
-use foveate_design::{Camera, RasterDesign, RasterTiming, RegionAction};
+use foveate_camera::{Camera, RegionAction};
+use foveate_design::{RasterDesign, RasterTiming};
 use foveate_emit::Register;
 use foveate_model::FunctionalOutcome;
 use foveate_packets::{

@@ -3,8 +3,9 @@
 
 use super::scenes::{BusScene, SceneBuilder, taken_frame};
 use super::traffic::{ALL_BYTES, ExpectedFrame, ExpectedRead, FrameFate, FrameMaps, Traffic};
-use foveate_design::{CLASSES_PER_WORD, RegionClass, class_word};
-use foveate_frame::Frame;
+use foveate_camera::RegionClass;
+use foveate_design::{CLASSES_PER_WORD, class_word};
+use foveate_pixels::Frame;
 
 const MAPS: usize = 4;
 /// The number of frames that come while maps are committed at any time.

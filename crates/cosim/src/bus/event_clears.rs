@@ -9,7 +9,7 @@ use super::scenes::{SceneBuilder, taken_frame};
 use super::traffic::{ExpectedEventCount, ExpectedFrame, FrameFate, Traffic};
 use super::video_damage::send_first_words;
 use crate::situations::{can_drop_regions, can_drop_rows};
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 
 /// The number of attempts for each event, one for each parity of the clock.
 const ATTEMPTS_PER_EVENT: u32 = 2;

@@ -4,9 +4,10 @@
 
 use crate::stimulus::StimulusPattern::{self, *};
 use crate::stimulus::{FrameFeed, FrameGenerator, PatternAim, Random, Texture};
-use foveate_design::{Camera, RasterDesign};
-use foveate_frame::Frame;
+use foveate_camera::Camera;
+use foveate_design::RasterDesign;
 use foveate_model::FunctionalCamera;
+use foveate_pixels::Frame;
 
 /// The patterns that each region shows in turn in quiet frames. Few regions are relevant, so that
 /// few packets are long. The means of irrelevant regions just meet the summary level, or exceed it.
@@ -133,7 +134,8 @@ fn drawn_frame(generator: &FrameGenerator) -> Frame {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use foveate_design::{DenoiseFilter, Design, DesignConfig, Organization};
+    use foveate_camera::DenoiseFilter;
+    use foveate_design::{Design, DesignConfig, Organization};
 
     /// Returns the numbers of active regions of the two frames, drawn with a seed.
     fn active_counts(design: &Design, seed: u64) -> [usize; 2] {

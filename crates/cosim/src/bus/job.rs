@@ -16,12 +16,15 @@ use crate::replay;
 use crate::report::{CosimReport, StepSeconds};
 use crate::simulation::{Simulator, UNKNOWN_START, WAVES_FILE};
 use crate::situations::{BusSituationCounts, Occurrences};
-use foveate_design::{Design, RasterDesign, RegionClass};
+use foveate_camera::RegionClass;
+use foveate_design::{Design, RasterDesign};
 use foveate_emit::{AXI_TOP, Prefix, Register, SourceFile, axi_modules, axi_registers};
-use foveate_frame::Frame;
-use foveate_staging::{ScratchFolder, write_file};
-use foveate_toolchain::verilator::{self, LintMode, OptimizationLevel, VerilatorJob};
-use foveate_toolchain::{Cache, Invocation, Source, Tool, Toolchain, sources_sha256};
+use foveate_pixels::Frame;
+use foveate_tools::{
+    Cache, Invocation, ScratchFolder, Source, Tool, Toolchain, sources_sha256,
+    verilator::{self, LintMode, OptimizationLevel, VerilatorJob},
+    write_file,
+};
 use std::fs::{self, File};
 use std::io::BufReader;
 use std::path::{Path, PathBuf};

@@ -2,9 +2,9 @@
 //! The functional model of a core on a bus, whose thresholds change from frame to frame and whose
 //! sent regions may be lost.
 
-use foveate_design::{Camera, ReferencePolicy, RegionClass};
-use foveate_frame::Frame;
+use foveate_camera::{Camera, ReferencePolicy, RegionClass};
 use foveate_model::{FunctionalCamera, FunctionalOutcome, RegionMemory};
+use foveate_pixels::Frame;
 use std::collections::BTreeSet;
 
 /// A functional model that takes lost regions and threshold changes into account.

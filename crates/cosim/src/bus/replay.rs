@@ -8,9 +8,7 @@ use crate::replay::{
     README, REPLAY, SCRIPT, TRAFFIC_FILE, copy_waves, make_executable, write_file,
 };
 use askama::Template;
-use foveate_staging::StagedFolder;
-use foveate_toolchain::Source;
-use foveate_toolchain::escaping::shell_word;
+use foveate_tools::{Source, StagedFolder, escaping::shell_word};
 use std::fs;
 use std::path::{Path, PathBuf};
 

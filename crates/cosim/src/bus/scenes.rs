@@ -6,9 +6,10 @@ use super::frame_source::BusFrameSource;
 use super::traffic::{ExpectedFrame, ExpectedRead, FrameFate, FrameMaps, Traffic};
 use super::video_damage::VideoDamage;
 use crate::stimulus::Random;
-use foveate_design::{Camera, Design, RasterDesign, RasterTiming, RegionClass};
+use foveate_camera::{Camera, RegionClass};
+use foveate_design::{Design, RasterDesign, RasterTiming};
 use foveate_emit::{FieldKind, Register};
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 
 /// The approximate number of clocks that a scene may take.
 const SCENE_CLOCKS: u64 = 4_000_000;

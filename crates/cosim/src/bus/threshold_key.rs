@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! One threshold of a design: its register, its value in a configuration, and its copy to another.
 
-use foveate_design::{
-    Decimal, Design, DesignConfig, FeatureKind, KeenConfig, KeenSpatialConfig, RegionClass,
-};
+use foveate_camera::{Decimal, FeatureKind, KeenConfig, KeenSpatialConfig, RegionClass};
+use foveate_design::{Design, DesignConfig};
 
 /// A threshold of a class of regions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

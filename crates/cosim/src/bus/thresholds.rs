@@ -3,9 +3,8 @@
 //! which each decides.
 
 use super::threshold_key::{ThresholdKey, keep_class_thresholds, with_class_thresholds};
-use foveate_design::{
-    Camera, Decimal, Design, DesignConfig, RegionClass, ThresholdSource, VoteCombination,
-};
+use foveate_camera::{Camera, Decimal, RegionClass, VoteCombination};
+use foveate_design::{Design, DesignConfig, ThresholdSource};
 
 /// Returns the design with other thresholds: once with a lower temporal level, once with a temporal
 /// level whose highest bit is set. Returns an empty list if thresholds are constants.

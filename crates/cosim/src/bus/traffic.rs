@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The traffic on the buses of a core, in order, with the results that it must have.
 
-use foveate_design::{RasterDesign, RegionClass};
-use foveate_frame::Frame;
+use foveate_camera::RegionClass;
+use foveate_design::RasterDesign;
+use foveate_pixels::Frame;
 use std::fmt::Write as _;
 use std::ops::Range;
 

@@ -3,7 +3,7 @@
 
 use super::traffic::{Traffic, rows};
 use crate::stimulus::Random;
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 
 /// The number of random draws of lines to damage in a frame.
 const DAMAGED_LINES: usize = 3;

@@ -9,7 +9,7 @@ use crate::stimulus::{
 };
 use foveate_design::{ArrayStructure, CoreInterface, CoreStream, Design, Port, PortDirection};
 use foveate_emit::Top;
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 use std::sync::atomic::AtomicBool;
 
 /// The largest number of regions of an array whose model is played. Of a larger array only one lane

@@ -2,7 +2,7 @@
 //! The places of a frame at which regions of a bench have structure, and the ground elsewhere.
 
 use foveate_design::Design;
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 
 /// The largest number of pixels in those regions of a frame that show more than one level.
 const MAX_DRAWN_PIXELS: u32 = 16_384;

@@ -6,7 +6,8 @@ use super::drawn_places::flat_level;
 use crate::stimulus::{
     PatternGenerator, PatternScores, StimulusPattern, Texture, ThresholdAimer, ThresholdRanges,
 };
-use foveate_design::{Design, ThresholdSource as Mode, VoteCombination};
+use foveate_camera::VoteCombination;
+use foveate_design::{Design, ThresholdSource as Mode};
 use foveate_model::ThresholdInputs;
 use std::ops::RangeInclusive;
 

@@ -3,7 +3,8 @@
 
 use crate::error::CosimError;
 use crate::level::CosimLevel;
-use foveate_design::{ArrayStructure, Design, Neighborhood};
+use foveate_camera::Neighborhood;
+use foveate_design::{ArrayStructure, Design};
 use foveate_emit::Top;
 
 /// The smallest side of a region at which an array of nine is too slow in Icarus.

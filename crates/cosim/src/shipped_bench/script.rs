@@ -9,9 +9,10 @@ use crate::stimulus::{
     ClassChoice, FrameDelivery, PatternGenerator, Random, SequenceEnd, SinkPattern,
     StimulusPattern, Texture,
 };
-use foveate_design::{Design, FeatureKind, Neighborhood, ThresholdSource as Mode};
-use foveate_frame::Frame;
+use foveate_camera::{FeatureKind, Neighborhood};
+use foveate_design::{Design, ThresholdSource as Mode};
 use foveate_model::ThresholdInputs;
+use foveate_pixels::Frame;
 
 /// The number of frames that every script has; scripts with short frames have more.
 pub(super) const MIN_FRAMES_PER_SCRIPT: u64 = 5;

@@ -4,7 +4,8 @@
 
 use super::port_situations::PortSituationCounts;
 use super::watched_ports::{WatchedClock, WatchedPorts};
-use foveate_design::{CLASS_BITS, CLASSES_PER_WORD, RegionClass};
+use foveate_camera::RegionClass;
+use foveate_design::{CLASS_BITS, CLASSES_PER_WORD};
 
 /// The classes of the last frame, and whether a map waits.
 #[derive(Clone, Debug, Default)]

@@ -2,9 +2,8 @@
 //! The situations of an array, or of its unit alone, on plain ports.
 
 use super::occurrence::Occurrences;
-use foveate_design::{
-    Design, Hardware, Neighborhood, RasterTiming, ReferencePolicy, ThresholdSource, VoteCombination,
-};
+use foveate_camera::{Neighborhood, ReferencePolicy, VoteCombination};
+use foveate_design::{Design, Hardware, RasterTiming, ThresholdSource};
 use foveate_emit::Top;
 
 /// The counts from the ports since the first clock.
@@ -319,7 +318,7 @@ fn keeps_references(design: &Design) -> bool {
 
 /// Returns true if a region that is irrelevant loses its reference.
 fn drops_references(design: &Design) -> bool {
-    use foveate_design::IrrelevantRendering::{Hold, Mean, Zero};
+    use foveate_camera::IrrelevantRendering::{Hold, Mean, Zero};
     let blanks = match design.irrelevant() {
         Zero | Mean => true,
         Hold => false,

@@ -2,7 +2,8 @@
 //! The history of every region, from its decisions and its losses.
 
 use super::port_situations::PortSituationCounts;
-use foveate_design::{Design, IrrelevantRendering, ReferencePolicy};
+use foveate_camera::{IrrelevantRendering, ReferencePolicy};
+use foveate_design::Design;
 
 /// A decision as the ports show it.
 #[derive(Clone, Copy, Debug)]

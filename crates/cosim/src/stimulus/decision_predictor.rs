@@ -2,7 +2,8 @@
 //! The prediction of the clocks at which a pipelined array decides, so that minima and the summary
 //! level can be aimed at these clocks.
 
-use foveate_design::{Design, FeatureKind, Hardware, PortRole};
+use foveate_camera::FeatureKind;
+use foveate_design::{Design, Hardware, PortRole};
 use foveate_model::{
     CoreInput, CycleModel, FrameSync, PipelinedRpu, RpuInput, ThresholdInputs, ZoneInputs,
 };

@@ -3,8 +3,8 @@
 
 use crate::level::CosimLevel;
 use foveate_design::{Design, Hardware, PipelinedDesign, PixelFeed, RasterDesign, SerialDesign};
-use foveate_frame::Frame;
 use foveate_model::region_stream;
+use foveate_pixels::Frame;
 
 /// The order of the pixels of a frame at the pixel port, and the number taken at a time.
 #[derive(Clone, Copy, Debug)]

@@ -5,7 +5,7 @@ use super::frame_feed::FrameFeed;
 use super::random::Random;
 use super::stimulus_pattern::{PatternGenerator, StimulusPattern};
 use crate::error::CosimError;
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 
 /// The choice of the data of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

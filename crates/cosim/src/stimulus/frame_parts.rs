@@ -4,8 +4,8 @@
 use crate::error::CosimError;
 use crate::level::CosimLevel;
 use foveate_design::{Design, Hardware};
-use foveate_frame::Frame;
 use foveate_model::{region_border, region_stream};
+use foveate_pixels::Frame;
 
 /// The largest number of clocks of all parts that go through a single lane or core; the parts are
 /// spread over the frame.

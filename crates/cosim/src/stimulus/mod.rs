@@ -44,7 +44,7 @@ use crate::recording::{Recorder, Recording};
 pub(crate) use clock_receiver::ClockReceiver;
 pub(crate) use external_store::StoreFault;
 use foveate_design::Design;
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 pub(crate) use frame_delivery::FrameDelivery;
 pub(crate) use frame_feed::FrameFeed;
 pub(crate) use frame_generator::{FrameGenerator, PatternAim};

@@ -19,9 +19,9 @@ use crate::codec::RecordCodec;
 use crate::error::CosimError;
 use foveate_design::{Design, PortRole};
 use foveate_emit::Top;
-use foveate_frame::Frame;
 use foveate_model::{CoreInput, CycleModel, ThresholdInputs, rcm_model, region_border, rpu_model};
-use foveate_toolchain::ToolError;
+use foveate_pixels::Frame;
+use foveate_tools::ToolError;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The part of a frame that is taken.

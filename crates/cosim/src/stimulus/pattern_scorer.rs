@@ -2,7 +2,8 @@
 //! The scores of squares of pixels, for squares that meet a minimum exactly or are relevant. They
 //! only affect the choice of vectors; the expected outputs come from the model of a core.
 
-use foveate_design::{Design, ReferencePolicy, VoteCombination};
+use foveate_camera::{ReferencePolicy, VoteCombination};
+use foveate_design::Design;
 use foveate_model::{RegionScorer, ThresholdInputs};
 
 /// The border mask of a region that is alone in its frame: it touches all four sides.

@@ -7,8 +7,8 @@ use super::port_zones::{ClassChoice, PortZones};
 use super::random::Random;
 use super::threshold_aimer::{ThresholdAim, ThresholdAimer};
 use foveate_design::{Design, ThresholdSource as Mode};
-use foveate_frame::Frame;
 use foveate_model::{CoreInput, CycleModel, ThresholdInputs, region_stream};
+use foveate_pixels::Frame;
 
 /// The thresholds at the ports, and the state from which they are chosen.
 pub(super) struct PortThresholds<'a> {

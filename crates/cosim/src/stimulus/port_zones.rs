@@ -3,7 +3,8 @@
 //! memory of classes, and thresholds of regions that are keen or off.
 
 use super::random::Random;
-use foveate_design::{CLASSES_PER_WORD, Design, RegionClass, class_word};
+use foveate_camera::RegionClass;
+use foveate_design::{CLASSES_PER_WORD, Design, class_word};
 use foveate_model::{ClassMapInputs, ThresholdInputs, ZoneInputs};
 use std::collections::VecDeque;
 

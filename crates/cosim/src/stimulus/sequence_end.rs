@@ -6,8 +6,8 @@ use super::gap_pattern::GapPattern;
 use super::model_driver::ModelDriver;
 use crate::error::CosimError;
 use foveate_design::PortRole;
-use foveate_frame::Frame;
 use foveate_model::CycleModel;
+use foveate_pixels::Frame;
 
 /// The state at which the reset of the next sequence comes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -16,8 +16,8 @@ use crate::error::CosimError;
 use crate::level::CosimLevel;
 use crate::recording::Recorder;
 use foveate_design::{Design, PortRole};
-use foveate_frame::Frame;
 use foveate_model::FunctionalCamera;
+use foveate_pixels::Frame;
 use std::sync::atomic::AtomicBool;
 
 /// The settings of a recording.

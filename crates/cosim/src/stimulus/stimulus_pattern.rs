@@ -3,7 +3,8 @@
 
 use super::pattern_scorer::{PatternScorer, PatternScores};
 use super::random::Random;
-use foveate_design::{Design, SpatialFeature};
+use foveate_camera::SpatialFeature;
+use foveate_design::Design;
 use foveate_model::ThresholdInputs;
 
 /// A way to fill a square. Some patterns change the last picture of the square.
@@ -306,8 +307,8 @@ pub(super) fn shift_pixel(pixel: u16, amount: u16, up: bool, max: u16) -> u16 {
 mod tests {
     use super::*;
     use foveate_design::DesignConfig;
-    use foveate_frame::Frame;
     use foveate_model::FunctionalCamera;
+    use foveate_pixels::Frame;
 
     const ALL: [StimulusPattern; 30] = [
         StimulusPattern::Zero,

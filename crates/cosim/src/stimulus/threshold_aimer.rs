@@ -5,7 +5,8 @@
 use super::port_zones::ClassChoice;
 use super::random::Random;
 use super::threshold_ranges::ThresholdRanges;
-use foveate_design::{Design, FeatureKind};
+use foveate_camera::FeatureKind;
+use foveate_design::Design;
 use foveate_model::{RegionScorer, ThresholdInputs, region_border};
 
 /// The choice of thresholds that are ports.

@@ -2,12 +2,12 @@
 //! Thresholds that meet the data: equal to a value, one below and one above.
 
 use super::random::Random;
-use foveate_design::{DenoiseFilter, Design, FeatureKind, SpatialFeature};
-use foveate_model::ThresholdInputs;
-use foveate_model::feature::decisive_level;
-use foveate_model::feature::mean::rounded_mean;
-use foveate_model::filtered_pixel;
-use foveate_model::window::PixelWindow;
+use foveate_camera::{DenoiseFilter, FeatureKind, SpatialFeature};
+use foveate_design::Design;
+use foveate_model::{
+    ThresholdInputs, feature::decisive_level, feature::mean::rounded_mean, filtered_pixel,
+    window::PixelWindow,
+};
 
 /// The largest value of every threshold port.
 #[derive(Clone, Debug)]

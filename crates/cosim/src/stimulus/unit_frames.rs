@@ -7,7 +7,7 @@ use crate::error::CosimError;
 use crate::level::CosimLevel;
 use crate::recording::{Recorder, Recording};
 use foveate_design::Design;
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 use std::sync::atomic::AtomicBool;
 
 /// Frames for an RPU of `pipelined` or a lane of `serial`. Each part of a frame that a unit takes is a

@@ -9,10 +9,12 @@ use foveate_cosim::{
     cell_models, has_miswired_block_ram,
 };
 use foveate_design::{OutputQualifier, Port, PortDirection, PortRole};
-use foveate_toolchain::testing::{require_tools, sample};
-use foveate_toolchain::verilator::OptimizationLevel;
-use foveate_toolchain::yosys::{self, YosysJob};
-use foveate_toolchain::{Cache, Source, Tool, Toolchain};
+use foveate_tools::{
+    Cache, Source, Tool, Toolchain,
+    testing::{require_tools, sample},
+    verilator::OptimizationLevel,
+    yosys::{self, YosysJob},
+};
 use std::collections::{BTreeMap, BTreeSet};
 use std::time::Duration;
 

@@ -7,17 +7,21 @@ use crate::common;
 use crate::common::serial::serial_config;
 use crate::common::vectors::{clock_records, port_value};
 use crate::common::{feature, in_parallel, in_turn};
+use foveate_camera::{
+    Decimal, DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood, Payload,
+    ReferencePolicy, RegionAction,
+};
 use foveate_cosim::{CosimJob, CosimLevel, Recording, Simulator, Stimulus};
 use foveate_design::{
-    Decimal, DenoiseFilter, Design, DesignConfig, FeatureKind, FrameStoreKind, IrrelevantRendering,
-    Neighborhood, Organization, OrganizationConfig, Payload, Pipelining, PixelFeed, PortRole,
-    ReferencePolicy, RegionAction, SerialConfig,
+    Design, DesignConfig, FrameStoreKind, Organization, OrganizationConfig, Pipelining, PixelFeed,
+    PortRole, SerialConfig,
 };
-use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, region_pixels};
-use foveate_scenes::{Scene, SceneParameters};
-use foveate_toolchain::testing::{require_tools, sample};
-use foveate_toolchain::{Cache, Toolchain};
+use foveate_pixels::{Frame, Scene, SceneParameters};
+use foveate_tools::{
+    Cache, Toolchain,
+    testing::{require_tools, sample},
+};
 
 /// The result of one region in one frame.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -202,7 +206,7 @@ fn raster_results(design: &Design, recording: &Recording) -> FrameResults {
             if decided[region] == results.len() {
                 results.push(vec![RegionResult::default(); regions]);
             }
-            let score = |f: &foveate_design::SpatialFeature| says(PortRole::Score(f.kind()));
+            let score = |f: &foveate_camera::SpatialFeature| says(PortRole::Score(f.kind()));
             results[decided[region]][region] = RegionResult {
                 count: says(PortRole::TemporalCount),
                 scores: design.features().iter().map(score).collect(),

@@ -4,9 +4,10 @@
 use crate::common::{cosimulate, design, directed_stimulus};
 use foveate_cosim::{CosimError, CosimJob, CosimLevel, CosimProgress, CosimReport, Simulator};
 use foveate_design::DesignConfig;
-use foveate_staging::StagingError;
-use foveate_toolchain::testing::{require_tools, sample};
-use foveate_toolchain::{Cache, Toolchain};
+use foveate_tools::{
+    Cache, StagingError, Toolchain,
+    testing::{require_tools, sample},
+};
 use std::fs;
 use std::path::Path;
 use std::process::Command;

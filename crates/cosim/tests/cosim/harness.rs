@@ -7,9 +7,11 @@ use foveate_cosim::{
     bench_name, replay_bench, vectors_hex,
 };
 use foveate_design::{OutputQualifier, Port, PortDirection, PortRole};
-use foveate_toolchain::testing::{require_tools, sample};
-use foveate_toolchain::verilator::OptimizationLevel;
-use foveate_toolchain::{Cache, Invocation, Tool, Toolchain};
+use foveate_tools::{
+    Cache, Invocation, Tool, Toolchain,
+    testing::{require_tools, sample},
+    verilator::OptimizationLevel,
+};
 use std::time::Duration;
 
 const TINY_MODULE: &str = include_str!("tiny.v");

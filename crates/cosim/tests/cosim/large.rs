@@ -9,8 +9,10 @@ use foveate_cosim::{
 };
 use foveate_design::{Design, DesignConfig, PRESETS};
 use foveate_emit::{Prefix, SourceFile, Top, verilog};
-use foveate_toolchain::testing::{require_tools, sample};
-use foveate_toolchain::{Tool, Toolchain};
+use foveate_tools::{
+    Tool, Toolchain,
+    testing::{require_tools, sample},
+};
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::Command;

@@ -4,8 +4,10 @@
 use crate::common::{design, directed_stimulus, in_parallel};
 use foveate_cosim::{CosimJob, CosimLevel, CosimReport, Netlist, Simulator};
 use foveate_design::DesignConfig;
-use foveate_toolchain::testing::{require_tools, takes_whole_lists};
-use foveate_toolchain::{Cache, Tool, Toolchain};
+use foveate_tools::{
+    Cache, Tool, Toolchain,
+    testing::{require_tools, takes_whole_lists},
+};
 use std::path::Path;
 use std::process::Command;
 

@@ -6,13 +6,13 @@ use crate::common::{
     check_agreement, config_name, design, directed_stimulus, feature, has_simulators, in_parallel,
     in_turn,
 };
-use foveate_cosim::{CosimLevel, Simulator};
-use foveate_design::{
-    CameraConfig, Decimal, DenoiseFilter, DesignConfig, FeatureKind, IrrelevantRendering,
-    Neighborhood, Organization, Payload, Pipelining, ReferencePolicy, ThresholdSource,
-    VoteCombination,
+use foveate_camera::{
+    CameraConfig, Decimal, DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood, Payload,
+    ReferencePolicy, VoteCombination,
 };
-use foveate_toolchain::testing::{cover, sample};
+use foveate_cosim::{CosimLevel, Simulator};
+use foveate_design::{DesignConfig, Organization, Pipelining, ThresholdSource};
+use foveate_tools::testing::{cover, sample};
 
 /// The number of pixels per region from which on Verilator's build takes less time than it saves.
 const COMPILED_FROM: u32 = 16 * 16;

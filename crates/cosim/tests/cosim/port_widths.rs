@@ -5,7 +5,7 @@
 use crate::common::{cosimulate, design, directed_stimulus};
 use foveate_cosim::{CosimError, CosimLevel, Simulator};
 use foveate_design::DesignConfig;
-use foveate_toolchain::testing::require_tools;
+use foveate_tools::testing::require_tools;
 
 /// The file, a text that occurs once in it, its replacement, the port, its bits after the edit, and
 /// its bits in the design.

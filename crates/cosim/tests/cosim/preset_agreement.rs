@@ -5,8 +5,8 @@
 use crate::common::{cosimulate, design};
 use foveate_cosim::{CosimLevel, Simulator, Stimulus};
 use foveate_design::{Design, DesignConfig, Organization, PRESETS};
-use foveate_scenes::{Scene, SceneParameters};
-use foveate_toolchain::testing::{require_tools, sample};
+use foveate_pixels::{Scene, SceneParameters};
+use foveate_tools::testing::{require_tools, sample};
 
 fn assert_agreement(design: &Design, simulator: Simulator, stimulus: Stimulus, what: &str) {
     if !require_tools(simulator.tools()) {

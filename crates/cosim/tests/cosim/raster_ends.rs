@@ -6,12 +6,13 @@ use std::collections::{BTreeMap, VecDeque};
 
 use crate::common::vectors::{clock_records, port_value};
 use crate::common::{check_agreement, design, directed_stimulus, feature, has_simulators};
-use foveate_cosim::{CosimLevel, Recording, Simulator, Stimulus};
-use foveate_design::{
-    CameraConfig, Decimal, DenoiseFilter, Design, DesignConfig, FeatureKind, IrrelevantRendering,
-    Payload, Pipelining, PortRole, ReferencePolicy,
+use foveate_camera::{
+    CameraConfig, Decimal, DenoiseFilter, FeatureKind, IrrelevantRendering, Payload,
+    ReferencePolicy,
 };
-use foveate_frame::Frame;
+use foveate_cosim::{CosimLevel, Recording, Simulator, Stimulus};
+use foveate_design::{Design, DesignConfig, Pipelining, PortRole};
+use foveate_pixels::Frame;
 
 /// Returns designs with frames of which some regions are lost: plain and deep, with and without a
 /// second pass, with both kinds of references, the fewest words that a region can have, fewer rows

@@ -6,12 +6,10 @@ use std::collections::BTreeSet;
 
 use crate::common::vectors::{clock_records, port_value};
 use crate::common::{design, directed_stimulus, feature};
+use foveate_camera::{CameraConfig, DenoiseFilter, FeatureKind, Neighborhood, ReferencePolicy};
 use foveate_cosim::{CosimLevel, Recording, Stimulus};
-use foveate_design::{
-    CameraConfig, DenoiseFilter, Design, DesignConfig, FeatureKind, Neighborhood, Organization,
-    PortRole, RasterTiming, ReferencePolicy,
-};
-use foveate_frame::Frame;
+use foveate_design::{Design, DesignConfig, Organization, PortRole, RasterTiming};
+use foveate_pixels::Frame;
 
 /// Returns a small design with two features, the last of which is `last`.
 fn config(last: FeatureKind) -> DesignConfig {

@@ -9,12 +9,12 @@ use crate::common::{
     check_agreement, config_name, design, directed_stimulus, feature, has_simulators, in_parallel,
     in_turn,
 };
+use foveate_camera::{CameraConfig, DenoiseFilter, FeatureKind, Neighborhood, Payload};
 use foveate_cosim::{CosimLevel, Recording, Simulator};
 use foveate_design::{
-    CameraConfig, DenoiseFilter, Design, DesignConfig, FeatureKind, FrameStoreKind, Neighborhood,
-    Payload, Pipelining, PortRole, RasterTiming, ThresholdSource,
+    Design, DesignConfig, FrameStoreKind, Pipelining, PortRole, RasterTiming, ThresholdSource,
 };
-use foveate_toolchain::testing::{cover, sample};
+use foveate_tools::testing::{cover, sample};
 
 /// Returns a configuration with an external store and regions of 4x4 pixels with these features.
 fn config(kinds: &[FeatureKind]) -> DesignConfig {

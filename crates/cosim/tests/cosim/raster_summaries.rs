@@ -8,7 +8,7 @@ use crate::common::vectors::{clock_records, pairs_of_decisions, port_value};
 use crate::common::{check_agreement, directed_stimulus, has_simulators, in_parallel, in_turn};
 use foveate_cosim::{CosimLevel, Simulator};
 use foveate_design::{Design, DesignConfig, PortRole, ThresholdSource};
-use foveate_toolchain::testing::sample;
+use foveate_tools::testing::sample;
 
 fn design(keys: &[&str]) -> Design {
     let own = ["hardware.organization='raster'", "render.irrelevant='mean'"];

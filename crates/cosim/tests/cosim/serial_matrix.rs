@@ -6,13 +6,15 @@ use crate::common::serial::{serial_config, serial_config_name};
 use crate::common::{
     check_agreement, design, directed_stimulus, feature, has_simulators, in_parallel, in_turn,
 };
+use foveate_camera::{
+    Decimal, DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood, Payload,
+    ReferencePolicy, VoteCombination,
+};
 use foveate_cosim::{CosimLevel, Simulator};
 use foveate_design::{
-    Decimal, DenoiseFilter, Design, DesignConfig, FeatureKind, IrrelevantRendering, LaneMemoryKind,
-    Neighborhood, Payload, Pipelining, PixelFeed, ReferencePolicy, ThresholdSource,
-    VoteCombination,
+    Design, DesignConfig, LaneMemoryKind, Pipelining, PixelFeed, ThresholdSource,
 };
-use foveate_toolchain::testing::{cover, sample};
+use foveate_tools::testing::{cover, sample};
 
 use FeatureKind::{Corner, Edge, Flow, Mad, Range, Segment, Surface, Variance};
 

@@ -6,12 +6,12 @@ use crate::common;
 use crate::common::serial::serial_config;
 use crate::common::vectors::{clock_records, pairs_of_decisions, port_value};
 use crate::common::{design, directed_stimulus, feature};
-use foveate_cosim::{CosimLevel, RecordLayout, Recording, Stimulus};
-use foveate_design::{
-    DenoiseFilter, Design, DesignConfig, FeatureKind, IrrelevantRendering, Neighborhood, PixelFeed,
-    PortRole, ReferencePolicy, SerialTiming,
+use foveate_camera::{
+    DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood, ReferencePolicy,
 };
-use foveate_frame::Frame;
+use foveate_cosim::{CosimLevel, RecordLayout, Recording, Stimulus};
+use foveate_design::{Design, DesignConfig, PixelFeed, PortRole, SerialTiming};
+use foveate_pixels::Frame;
 use std::collections::BTreeSet;
 
 const GRID: (u32, u32) = (3, 2);

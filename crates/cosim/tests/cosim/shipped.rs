@@ -3,11 +3,14 @@
 //! wrong.
 
 use crate::common::in_parallel;
+use foveate_camera::FeatureKind;
 use foveate_cosim::{Occurrences, ShippedBench, VectorTally};
-use foveate_design::{ArrayStructure, Design, DesignConfig, FeatureKind, Organization};
+use foveate_design::{ArrayStructure, Design, DesignConfig, Organization};
 use foveate_emit::{Prefix, SourceFile, Top, verilog};
-use foveate_toolchain::testing::{cover, require_tools, sample, sampling_step, takes_whole_lists};
-use foveate_toolchain::{Tool, Toolchain};
+use foveate_tools::{
+    Tool, Toolchain,
+    testing::{cover, require_tools, sample, sampling_step, takes_whole_lists},
+};
 use std::num::NonZero;
 use std::path::Path;
 use std::process::Command;

@@ -7,8 +7,10 @@ use crate::common::in_parallel;
 use crate::shipped::{BenchSimulator, bench};
 use foveate_design::{Design, DesignConfig};
 use foveate_emit::{SourceFile, Top, verilog};
-use foveate_toolchain::Tool;
-use foveate_toolchain::testing::{require_tools, sample};
+use foveate_tools::{
+    Tool,
+    testing::{require_tools, sample},
+};
 
 const PIPELINED: &str = "hardware.organization = 'pipelined'\n";
 const SERIAL: &str = "hardware.organization = 'serial'\nhardware.fold = 2\n";

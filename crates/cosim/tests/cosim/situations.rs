@@ -6,7 +6,7 @@ use crate::common::in_parallel;
 use foveate_cosim::{CosimLevel, Occurrences, ShippedBench, Stimulus};
 use foveate_design::{Design, DesignConfig};
 use foveate_emit::{Prefix, Top};
-use foveate_toolchain::testing::{sample, takes_whole_lists};
+use foveate_tools::testing::{sample, takes_whole_lists};
 use std::sync::atomic::AtomicBool;
 
 /// A frame so small that arrays are simulated whole.

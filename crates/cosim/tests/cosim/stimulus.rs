@@ -3,9 +3,10 @@
 
 use crate::common::vectors::{clock_records, field_of_role, pairs_of_decisions};
 use crate::common::{design, directed_stimulus};
+use foveate_camera::FeatureKind;
 use foveate_cosim::{CosimLevel, Recording, Stimulus, vectors_hex};
-use foveate_design::{Design, DesignConfig, FeatureKind, Organization, PortRole};
-use foveate_frame::Frame;
+use foveate_design::{Design, DesignConfig, Organization, PortRole};
+use foveate_pixels::Frame;
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicBool, Ordering};
 

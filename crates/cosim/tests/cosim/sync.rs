@@ -5,7 +5,7 @@ use crate::common::vectors::{clock_records, port_value};
 use crate::common::{check_agreement, directed_stimulus, has_simulators, in_parallel, in_turn};
 use foveate_cosim::{CosimLevel, Recording, Simulator};
 use foveate_design::{Design, DesignConfig, PortRole};
-use foveate_toolchain::testing::sample;
+use foveate_tools::testing::sample;
 use std::collections::BTreeMap;
 
 /// Designs of every organization, in small frames. Every second one is simulated in Icarus, which

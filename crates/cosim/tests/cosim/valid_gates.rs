@@ -6,9 +6,7 @@ use foveate_cosim::{
     DesignUnderTest, PortDifference, Recorder, Recording, SimulationRun, Simulator,
 };
 use foveate_design::{OutputQualifier, Port, PortDirection, PortRole};
-use foveate_toolchain::testing::require_tools;
-use foveate_toolchain::verilator::OptimizationLevel;
-use foveate_toolchain::{Cache, Toolchain};
+use foveate_tools::{Cache, Toolchain, testing::require_tools, verilator::OptimizationLevel};
 use std::time::Duration;
 
 const GATED_MODULE: &str = include_str!("gated.v");

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The latencies of features in a pipelined RPU.
 
-use crate::{FeatureKind, Pipelining};
+use crate::Pipelining;
+use foveate_camera::FeatureKind;
 
 /// Returns the clocks from the step of the last pixel of a frame until the score is final. For a
 /// feature with a second pass, the clocks end when the value that the second pass starts with is

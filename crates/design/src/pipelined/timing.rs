@@ -3,7 +3,8 @@
 
 use super::feature::score_latency;
 use crate::timing::DepartureTiming;
-use crate::{DesignTiming, Neighborhood, PipelinedDesign, Pipelining};
+use crate::{DesignTiming, PipelinedDesign, Pipelining};
+use foveate_camera::Neighborhood;
 
 /// Registers between a filter window and the stream behind it in a plain design: window, result.
 const FILTER_REGISTERS: u32 = 2;

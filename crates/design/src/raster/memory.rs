@@ -4,9 +4,9 @@
 
 use super::RasterTiming;
 use super::feature::FeatureAccumulation;
-use crate::{
-    CLASS_BITS, CLASS_WORD_BITS, Design, FrameStoreKind, Periphery, RasterDesign, ReferencePolicy,
-    ReferenceWriteTime, SpatialFeature, bits_for, index_bits,
+use crate::{CLASS_BITS, CLASS_WORD_BITS, Design, FrameStoreKind, RasterDesign};
+use foveate_camera::{
+    Periphery, ReferencePolicy, ReferenceWriteTime, SpatialFeature, bits_for, index_bits,
 };
 
 /// Bits of the number of a row of regions in a queue, modulo 8.

@@ -4,10 +4,8 @@
 use super::hardware::min_columns;
 use super::{RasterTiming, ports::interface};
 use crate::rules::{ArrayStructure, ArrayUnit, OrganizationRules};
-use crate::{
-    CoreInterface, Design, DesignTiming, FrameStoreKind, Organization, RasterDesign,
-    ReferencePolicy,
-};
+use crate::{CoreInterface, Design, DesignTiming, FrameStoreKind, Organization, RasterDesign};
+use foveate_camera::ReferencePolicy;
 
 /// Rows of regions of the lone core.
 const LONE_ROWS: u32 = 3;

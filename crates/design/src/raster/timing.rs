@@ -3,7 +3,8 @@
 
 use super::feature::FeatureAccumulation;
 use crate::timing::DepartureTiming;
-use crate::{DesignTiming, Periphery, Pipelining, RasterDesign, ReferenceWriteTime, RegionAction};
+use crate::{DesignTiming, Pipelining, RasterDesign};
+use foveate_camera::{Periphery, ReferenceWriteTime, RegionAction};
 
 /// Clocks by which a stall must be shorter because of the readout itself, in addition to those of
 /// the queue, without a second pass.

@@ -3,7 +3,8 @@
 //! uses.
 
 use super::flow::FlowSearch;
-use crate::{Design, FeatureKind, SpatialFeature, bits_for};
+use crate::Design;
+use foveate_camera::{FeatureKind, SpatialFeature, bits_for};
 
 /// Returns the number of steps of the pass of a feature.
 pub(super) fn pass_steps(design: &Design, feature: &SpatialFeature) -> u64 {

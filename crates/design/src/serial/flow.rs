@@ -5,8 +5,8 @@
 //! The weight of a displacement d is c(d) = a^2 / n(d). Here a is the least common multiple of the
 //! numbers N, N-1, .. N-R of columns that can have a partner, so every weight is an integer.
 
-use crate::{SerialDesign, bits_for};
-use foveate_camera::Displacement;
+use crate::SerialDesign;
+use foveate_camera::{Displacement, bits_for};
 
 /// The numbers of the search of `flow` in a serial array.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -3,7 +3,8 @@
 
 use std::fmt;
 
-use crate::{LaneMemoryKind, ReferenceWriteTime, SerialDesign, index_bits};
+use crate::{LaneMemoryKind, SerialDesign};
+use foveate_camera::{ReferenceWriteTime, index_bits};
 
 /// Largest number of memory LUTs of the distributed memory of a lane, unless the configuration
 /// chooses the kind. A RAMB18 is the same share of the block RAM of a VU9P as 137 memory LUTs are

@@ -21,7 +21,8 @@ pub use memory::{LaneMemory, MemoryChoice, SlotArea, SlotAreaKind};
 pub use timing::{SerialPhase, SerialTiming};
 pub use widths::LaneWidths;
 
-use crate::{Design, PixelFeed, SerialDesign, index_bits};
+use crate::{Design, PixelFeed, SerialDesign};
+use foveate_camera::index_bits;
 
 /// Returns the bits of a port or register that holds a number in `0..n`. They are at least 1.
 fn number_bits(n: u32) -> u32 {

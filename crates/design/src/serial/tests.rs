@@ -3,11 +3,12 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use super::*;
-use crate::{DesignConfig, FeatureKind, LaneMemoryKind, Neighborhood, OutputQualifier, PixelFeed};
+use crate::{DesignConfig, LaneMemoryKind, OutputQualifier, PixelFeed};
 use SerialPhase::{
     CompareRaw as Compare, ComputeMeans, CopyReference, DenoiseAndCompare, FeaturePass,
     RepeatBorder, RotateCount, RotateScore, UnloadMeans, UnloadPixels,
 };
+use foveate_camera::{FeatureKind, Neighborhood};
 
 fn design(overrides: &[&str]) -> Design {
     let serial = "[hardware]\norganization = \"serial\"\n";

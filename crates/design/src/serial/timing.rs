@@ -5,7 +5,8 @@ use std::fmt;
 
 use super::feature;
 use crate::timing::DepartureTiming;
-use crate::{DenoiseFilter, DesignTiming, FeatureKind, Pipelining, PixelFeed, SerialDesign};
+use crate::{DesignTiming, Pipelining, PixelFeed, SerialDesign};
+use foveate_camera::{DenoiseFilter, FeatureKind};
 
 /// A phase of the lanes for one slot. The variants are in the order of the phases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

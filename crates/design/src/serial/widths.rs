@@ -2,7 +2,8 @@
 //! The widths of the registers of a serial lane and of the sequencer.
 
 use super::feature::{chain_bits, feature_register_widths};
-use crate::{DenoiseFilter, PixelFeed, SerialDesign, index_bits};
+use crate::{PixelFeed, SerialDesign};
+use foveate_camera::{DenoiseFilter, index_bits};
 
 /// The widths of the registers of a serial array, in bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,7 +2,8 @@
 //! Tests of configuration files: the accepted values, the designs that they make, and the messages
 //! of refusals.
 
-use foveate_design::{ConfigError, Design, DesignConfig, PRESETS, PipelinedTiming, Preset};
+use foveate_camera::ConfigError;
+use foveate_design::{Design, DesignConfig, PRESETS, PipelinedTiming, Preset};
 
 fn design(toml: &str) -> Design {
     DesignConfig::from_toml(toml).unwrap().validate().unwrap()

@@ -3,10 +3,8 @@
 
 use std::ops::RangeInclusive;
 
-use foveate_design::{
-    CameraConfig, Decimal, Design, DesignConfig, FeatureKind, Organization, PRESETS, SpatialConfig,
-    SpatialFeature,
-};
+use foveate_camera::{CameraConfig, Decimal, FeatureKind, SpatialConfig, SpatialFeature};
+use foveate_design::{Design, DesignConfig, Organization, PRESETS};
 
 fn config_with(text: &str, overrides: &[&str]) -> DesignConfig {
     DesignConfig::from_toml_with(text, overrides).unwrap()

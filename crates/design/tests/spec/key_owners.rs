@@ -5,8 +5,8 @@
 
 use std::collections::BTreeMap;
 
-use foveate_camera::{AcceptedValues, toml_text::TomlConfig};
-use foveate_design::{DesignConfig, FeatureKind, IrrelevantRendering, Organization};
+use foveate_camera::{AcceptedValues, FeatureKind, IrrelevantRendering, toml_text::TomlConfig};
+use foveate_design::{DesignConfig, Organization};
 
 const PAGE: &str = include_str!("../../../../docs/configuration.md");
 

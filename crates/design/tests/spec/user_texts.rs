@@ -2,8 +2,8 @@
 //! Tests that no text of a configuration reaches generated files, except the names that the program
 //! defines.
 
-use foveate_camera::toml_text::TomlConfig;
-use foveate_design::{ConfigError, DesignConfig, Preset};
+use foveate_camera::{ConfigError, toml_text::TomlConfig};
+use foveate_design::{DesignConfig, Preset};
 use toml::{Table, Value};
 
 use crate::hostile::{TextPlaces, key_name, texts};

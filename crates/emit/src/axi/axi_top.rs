@@ -5,7 +5,8 @@ use super::registers::{fingerprint_number, irrelevant_code, raw_flag, thresholds
 use crate::banner;
 use crate::verilog_text::PortLine;
 use askama::Template;
-use foveate_design::{Port, PortRole, RasterDesign, StreamRole, index_bits};
+use foveate_camera::index_bits;
+use foveate_design::{Port, PortRole, RasterDesign, StreamRole};
 
 const PACKET_WORD_BITS: u32 = 64;
 /// The number of words of a packet around its payload: its head and its tail.

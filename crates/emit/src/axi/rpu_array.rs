@@ -9,7 +9,8 @@ use super::registers::{
 };
 use crate::verilog_text::{module_file, rendered_text};
 use crate::{SourceFile, banner};
-use foveate_design::{Design, PipelinedDesign, Port, PortRole, bits_for};
+use foveate_camera::bits_for;
+use foveate_design::{Design, PipelinedDesign, Port, PortRole};
 
 /// The module with the registers of an array.
 pub const ARRAY_REGISTERS: &str = "array_registers";

@@ -2,7 +2,8 @@
 //! The values that a pipelined RPU compares pixels with, and those that it stores for that purpose.
 //! Both follow from the reference.
 
-use foveate_design::{PipelinedDesign, ReferencePolicy, ReferenceWriteTime};
+use foveate_camera::{ReferencePolicy, ReferenceWriteTime};
+use foveate_design::PipelinedDesign;
 
 /// A stored frame that the temporal score may be computed against.
 pub(super) struct ReferenceCandidate {

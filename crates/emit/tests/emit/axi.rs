@@ -10,8 +10,11 @@ use foveate_design::Hardware;
 use foveate_emit::{
     AXI_TOP, FieldKind, Prefix, SourceFile, array_table, axi_modules, axi_registers, core_files,
 };
-use foveate_toolchain::testing::{require_tools, sample};
-use foveate_toolchain::{Source, Tool, Toolchain, verilator};
+use foveate_tools::{
+    Source, Tool, Toolchain,
+    testing::{require_tools, sample},
+    verilator,
+};
 use rayon::prelude::*;
 
 #[test]

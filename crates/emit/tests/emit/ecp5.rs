@@ -6,10 +6,12 @@ use std::path::Path;
 use std::time::Duration;
 
 use foveate_emit::LEAVES;
-use foveate_toolchain::iverilog::{self, IverilogJob};
-use foveate_toolchain::testing::{require_tools, sample};
-use foveate_toolchain::yosys::{self, YosysJob};
-use foveate_toolchain::{Cache, Source, Tool, Toolchain};
+use foveate_tools::{
+    Cache, Source, Tool, Toolchain,
+    iverilog::{self, IverilogJob},
+    testing::{require_tools, sample},
+    yosys::{self, YosysJob},
+};
 
 /// The bits of a word and the number of words: each width of a block, several blocks, blocks that
 /// are full or not, and several banks.

@@ -10,9 +10,11 @@ use crate::common::{
 };
 use foveate_design::Organization;
 use foveate_emit::{AXI_TOP, LEAVES, SourceFile, Top, axi_modules, verilog};
-use foveate_toolchain::iverilog::{self, IverilogJob};
-use foveate_toolchain::testing::{require_tools, takes_whole_lists};
-use foveate_toolchain::{Cache, Tool, ToolError, Toolchain};
+use foveate_tools::{
+    Cache, Tool, ToolError, Toolchain,
+    iverilog::{self, IverilogJob},
+    testing::{require_tools, takes_whole_lists},
+};
 use rayon::prelude::*;
 
 /// Returns the module names of the files.

@@ -8,7 +8,7 @@ use std::process::Command;
 
 use crate::common::{covering_values, design, every_design_on_a_bus, has_tclsh};
 use foveate_emit::{Prefix, SourceFile, core_files};
-use foveate_toolchain::testing::sample;
+use foveate_tools::testing::sample;
 
 /// Returns a core of each organization and the selected cores on AXI, each with the module that
 /// goes into a chip and its clock.

@@ -9,10 +9,13 @@ use std::collections::BTreeSet;
 use crate::common::{design, every_design};
 use cases::{LimitCase, all_leaves, cases, with_default};
 use foveate_emit::{Top, verilog};
-use foveate_toolchain::iverilog::{self, IverilogJob};
-use foveate_toolchain::testing::{require_tools, sample};
-use foveate_toolchain::yosys::{self, YosysJob};
-use foveate_toolchain::{Cache, Source, Tool, ToolError, Toolchain, verilator};
+use foveate_tools::{
+    Cache, Source, Tool, ToolError, Toolchain,
+    iverilog::{self, IverilogJob},
+    testing::{require_tools, sample},
+    verilator,
+    yosys::{self, YosysJob},
+};
 use rayon::prelude::*;
 
 const TOOLS: &[Tool] = &[Tool::Verilator, Tool::Iverilog, Tool::Yosys];

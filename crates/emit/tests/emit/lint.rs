@@ -5,10 +5,13 @@
 use crate::common::{covering_designs, covering_values, design, raster_matrix};
 use foveate_design::RasterMemory;
 use foveate_emit::{Top, verilog};
-use foveate_toolchain::iverilog::{self, IverilogJob};
-use foveate_toolchain::testing::{require_tools, sample};
-use foveate_toolchain::yosys::{self, YosysJob};
-use foveate_toolchain::{Cache, Source, Tool, ToolError, Toolchain, verilator};
+use foveate_tools::{
+    Cache, Source, Tool, ToolError, Toolchain,
+    iverilog::{self, IverilogJob},
+    testing::{require_tools, sample},
+    verilator,
+    yosys::{self, YosysJob},
+};
 use rayon::prelude::*;
 
 /// Runs `check` on the Verilog of every design and reports every failure.

@@ -10,8 +10,10 @@ use std::process::Command;
 use crate::common::design;
 use foveate_design::{Design, PortDirection, PortRole};
 use foveate_emit::{Prefix, SourceFile, Top, core_files};
-use foveate_toolchain::testing::{require_tools, sample};
-use foveate_toolchain::{Tool, Toolchain};
+use foveate_tools::{
+    Tool, Toolchain,
+    testing::{require_tools, sample},
+};
 
 /// The clocks of a simulation, enough for a few frames of each core.
 const CLOCKS: u32 = 10_000;

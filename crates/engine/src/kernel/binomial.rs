@@ -3,8 +3,10 @@
 //! with the weights 1, 2, 1.
 
 use crate::kernel::{ExtendedRow, WindowSides, extended_block};
-use foveate_lanes::prefetch;
-use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
+use foveate_pixels::{
+    lanes::prefetch,
+    lanes::{BLOCK_LANES, Block, PixelLane},
+};
 
 /// Computes the weighted sum of the three pixels of every column.
 #[inline(always)]

@@ -3,7 +3,7 @@
 
 use crate::block_levels::BlockLevels;
 use crate::kernel::{WindowRows, WindowSides, extended_block};
-use foveate_lanes::{BLOCK_LANES, Block, PixelLane, best_arc};
+use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane, best_arc};
 
 /// Adds one to every lane whose pixel is a corner at its level.
 #[inline(always)]

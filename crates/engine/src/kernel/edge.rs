@@ -6,7 +6,7 @@
 
 use crate::block_levels::BlockLevels;
 use crate::kernel::{WindowRows, WindowSides, extended_block};
-use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
+use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane};
 
 /// Adds one to every lane whose window is an edge. `halves` are half of the levels, rounded down.
 #[inline(always)]

@@ -5,7 +5,7 @@
 use std::ops::Range;
 
 use foveate_camera::Displacement;
-use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
+use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane};
 
 /// A displacement and its errors by region.
 #[derive(Clone, Debug)]

@@ -7,7 +7,7 @@
 //! above `m`, the score is `2 (2^f Q - r K) + n mu - 2^f S`. So one saturating subtraction per
 //! pixel is enough for any f.
 
-use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
+use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane};
 
 /// Adds to every column the amounts by which its pixels exceed `mean`.
 #[inline(always)]

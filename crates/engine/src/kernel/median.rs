@@ -6,8 +6,10 @@
 //! middle one of their mids and the smallest of their highs.
 
 use crate::kernel::{ExtendedRow, WindowSides, extended_block};
-use foveate_lanes::prefetch;
-use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
+use foveate_pixels::{
+    lanes::prefetch,
+    lanes::{BLOCK_LANES, Block, PixelLane},
+};
 
 /// Sorts the three pixels of every column.
 #[inline(always)]

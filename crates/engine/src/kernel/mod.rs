@@ -23,7 +23,7 @@ pub(crate) mod surface;
 pub(crate) mod switching;
 pub(crate) mod temporal;
 
-use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
+use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane};
 
 /// A row that has one lane before its first block and one lane after its last.
 pub(crate) type ExtendedRow<'a, T> = &'a [T];

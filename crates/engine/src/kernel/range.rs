@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `range`: the smallest and the largest pixel of every column, and then of every region.
 
-use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
+use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane};
 
 /// Replaces the extremes of every column by those of the column with one more row.
 #[inline(always)]

@@ -7,7 +7,7 @@
 //! pixel and bound is enough for any f.
 
 use super::mad::region_mean;
-use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
+use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane};
 
 /// The parameters of `segment`.
 #[derive(Clone, Copy, Debug)]

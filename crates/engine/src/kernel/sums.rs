@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
+use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane};
 
 /// Adds every pixel to the sum of its column.
 #[inline(always)]

@@ -3,7 +3,7 @@
 //! right, below, below to the right and below to the left.
 
 use crate::kernel::{WindowRows, WindowSides, extended_block};
-use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
+use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane};
 
 /// The number of displacements.
 pub(crate) const DISPLACEMENTS: usize = 4;

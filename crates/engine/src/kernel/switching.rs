@@ -3,8 +3,10 @@
 
 use crate::kernel::median::median_of_columns;
 use crate::kernel::{ExtendedRow, WindowSides, extended_block};
-use foveate_lanes::prefetch;
-use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
+use foveate_pixels::{
+    lanes::prefetch,
+    lanes::{BLOCK_LANES, Block, PixelLane},
+};
 
 /// Replaces every raw pixel of `pixels` that is an extreme of its window by the median, which
 /// follows from the three sorted columns of the window, as the extremes do. Prefetches `ahead`, raw

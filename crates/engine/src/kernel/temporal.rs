@@ -2,7 +2,7 @@
 //! The temporal score: the number of pixels that differ from their reference by more than their level.
 
 use crate::block_levels::BlockLevels;
-use foveate_lanes::{BLOCK_LANES, Block, PixelLane};
+use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane};
 
 /// Adds one to every lane that has changed, and replaces the reference by the current pixels.
 #[inline(always)]

@@ -4,9 +4,8 @@
 
 use foveate_camera::{Camera, FeatureKind, Neighborhood, ReferencePolicy, SpatialConfig};
 use foveate_engine::{BatchScreens, Engine, EngineOptions, FrameOutcome, InstructionSet};
-use foveate_frame::Frame;
-use foveate_frame::FramePixels;
 use foveate_model::FunctionalCamera;
+use foveate_pixels::{Frame, FramePixels};
 use proptest::prelude::*;
 
 use crate::clip_script::{FrameChange, clip, scripts};

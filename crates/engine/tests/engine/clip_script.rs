@@ -3,7 +3,7 @@
 //! stepped areas.
 
 use foveate_camera::Camera;
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 use proptest::prelude::*;
 
 /// The change from one frame to the next.

@@ -6,7 +6,7 @@ use foveate_camera::{
     SpatialConfig,
 };
 use foveate_engine::EngineOptions;
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 
 use crate::clip_script::{FrameChange, clip};
 use crate::properties::{check, check_all};

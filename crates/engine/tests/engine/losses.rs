@@ -6,10 +6,10 @@ use foveate_camera::{
     Camera, IrrelevantRendering, ReferencePolicy, ReferenceWriteTime, RegionAction, VoteCombination,
 };
 use foveate_engine::{Engine, EngineOptions, FrameOutcome};
-use foveate_frame::Frame;
 use foveate_model::{
     RegionScorer, ThresholdInputs, pad, region_action, region_border, region_stream,
 };
+use foveate_pixels::Frame;
 use proptest::prelude::*;
 
 use crate::clip_script::{clip, scripts};

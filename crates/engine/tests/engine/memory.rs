@@ -3,8 +3,8 @@
 //! frame.
 
 use foveate_engine::{Engine, RegionStateBefore};
-use foveate_frame::{Frame, FramePixels};
 use foveate_model::{FunctionalCamera, FunctionalOutcome, RegionMemory};
+use foveate_pixels::{Frame, FramePixels};
 use proptest::prelude::*;
 
 use crate::clip_script::{clip, scripts};

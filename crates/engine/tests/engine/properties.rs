@@ -4,9 +4,8 @@
 
 use foveate_camera::Camera;
 use foveate_engine::{Engine, EngineOptions, FrameOutcome, InstructionSet};
-use foveate_frame::Frame;
-use foveate_frame::FramePixels;
 use foveate_model::FunctionalCamera;
+use foveate_pixels::{Frame, FramePixels};
 use proptest::prelude::*;
 
 use crate::clip_script::{clip, scripts};

@@ -3,7 +3,7 @@
 
 use foveate_camera::{Camera, CameraConfig};
 use foveate_engine::{BatchScreens, Engine, EngineError, EngineOptions, FrameOutcome, MAX_THREADS};
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 
 fn camera(bits: u32) -> Camera {
     let mut config = CameraConfig::default();

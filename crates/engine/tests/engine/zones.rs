@@ -4,8 +4,8 @@
 
 use foveate_camera::{Camera, CameraConfig, RegionClass, ZonesConfig};
 use foveate_engine::{Engine, EngineError, EngineOptions, InstructionSet};
-use foveate_frame::Frame;
 use foveate_model::FunctionalCamera;
+use foveate_pixels::Frame;
 use proptest::prelude::*;
 
 use crate::clip_script::{clip, scripts};

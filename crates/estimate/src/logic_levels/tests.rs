@@ -227,8 +227,7 @@ fn an_ecp5_has_cells_of_its_own() {
 /// missing.
 #[test]
 fn delays_are_those_of_the_cell_models() {
-    use foveate_toolchain::testing::require_tools;
-    use foveate_toolchain::{Cache, Tool, Toolchain, yosys};
+    use foveate_tools::{Cache, Tool, Toolchain, testing::require_tools, yosys};
     if !require_tools(&[Tool::Yosys]) {
         return;
     }

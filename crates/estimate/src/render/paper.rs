@@ -5,7 +5,7 @@ use crate::area::Area;
 use crate::paper::PaperComparison;
 use crate::report::AreaReport;
 use crate::table::{ReportTable, header};
-use foveate_pictures::page::number_text::grouped;
+use foveate_output::number_text::grouped;
 
 /// Returns the table; `None` if the paper has no comparable module.
 pub(super) fn paper_table(report: &AreaReport) -> Option<ReportTable> {

@@ -2,7 +2,7 @@
 //! The devices that a design can be placed on. A further device that nextpnr supports is one more
 //! row.
 
-use foveate_toolchain::Tool;
+use foveate_tools::Tool;
 
 /// A family of devices, with the same cells, synthesis and place-and-route program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

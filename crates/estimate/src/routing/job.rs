@@ -7,9 +7,12 @@ use std::thread;
 
 use foveate_design::Design;
 use foveate_emit::{AXI_CLOCK, AXI_TOP, Parameter, Top, axi_modules};
-use foveate_toolchain::nextpnr::{self, NextpnrJob};
-use foveate_toolchain::yosys::{self, YosysJob};
-use foveate_toolchain::{Cache, Source, Tool, ToolError, Toolchain, sources_sha256};
+use foveate_tools::{
+    Cache, Source, Tool, ToolError, Toolchain,
+    nextpnr::{self, NextpnrJob},
+    sources_sha256,
+    yosys::{self, YosysJob},
+};
 
 use super::critical_path::SourceNames;
 use super::device::{DeviceFamily, RouteDevice};
@@ -25,7 +28,7 @@ use crate::clock::ClockEstimate;
 use crate::error::EstimateError;
 use crate::logic_levels::CellLibrary;
 use crate::synthesis::{sources, sources_of_files};
-use foveate_toolchain::ToolRecord;
+use foveate_tools::ToolRecord;
 
 const NETLIST: &str = "netlist.json";
 const HIERARCHY: &str = "hierarchy.json";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Renders the placed design as text for a terminal and as Markdown.
 
-use foveate_pictures::page::number_text::grouped;
+use foveate_output::number_text::grouped;
 
 use super::critical_path::{CriticalPath, PathEnd};
 use super::report::{DeviceResult, PlacementResult, ResourceUse, RouteReport};

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::critical_path::CriticalPath;
 use super::shortage::ResourceShortage;
 use crate::clock::ClockEstimate;
-use foveate_toolchain::ToolRecord;
+use foveate_tools::ToolRecord;
 
 /// The version of the JSON report. It grows when a field changes its meaning or is removed.
 pub const ROUTE_FORMAT_VERSION: u32 = 2;

@@ -2,7 +2,7 @@
 //! The longest path and the leakage of an array, from the timing of one of its units with the logic that
 //! the units share.
 
-use foveate_toolchain::{Cache, ToolRecord, Toolchain};
+use foveate_tools::{Cache, ToolRecord, Toolchain};
 
 use super::error::SiliconError;
 use super::library::LibertyLibrary;

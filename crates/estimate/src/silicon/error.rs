@@ -4,7 +4,7 @@
 use std::io;
 use std::path::PathBuf;
 
-use foveate_toolchain::ToolError;
+use foveate_tools::ToolError;
 use thiserror::Error;
 
 use crate::EstimateError;

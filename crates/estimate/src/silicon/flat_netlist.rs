@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use foveate_design::Design;
 use foveate_emit::Top;
-use foveate_toolchain::{Cache, Toolchain};
+use foveate_tools::{Cache, Toolchain};
 use serde_json::Value;
 
 use super::error::SiliconError;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The netlist of a design in the cells of a library, with models of the cells, for a simulator.
 
-use foveate_toolchain::yosys::{self, YosysJob};
-use foveate_toolchain::{Cache, SynthesisJob, Toolchain};
+use foveate_tools::{
+    Cache, SynthesisJob, Toolchain,
+    yosys::{self, YosysJob},
+};
 
 use super::error::SiliconError;
 use super::job::SiliconJob;

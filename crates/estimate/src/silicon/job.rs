@@ -3,7 +3,7 @@
 
 use foveate_design::Design;
 use foveate_emit::{AXI_CLOCK, Top};
-use foveate_toolchain::{Cache, Toolchain, sources_sha256};
+use foveate_tools::{Cache, Toolchain, sources_sha256};
 
 use super::array_timing::{ARRAY_CLOCK, ArrayTiming, TimedArray, time_array};
 use super::cell_totals::CellTotals;

@@ -5,8 +5,7 @@ use std::collections::BTreeMap;
 use std::io::{self, Read as _};
 use std::path::{Path, PathBuf};
 
-use foveate_reading::{LimitedReader, open_file, unpacked};
-use foveate_toolchain::{Source, sha256_hex};
+use foveate_tools::{LimitedReader, Source, open_file, sha256_hex, unpacked};
 
 use super::error::SiliconError;
 use super::liberty_text::{LibertyGroup, parse_library};

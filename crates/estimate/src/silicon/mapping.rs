@@ -2,8 +2,10 @@
 //! Maps an array to the cells of a library with Yosys. Large memories are cut out, and their ports
 //! become ports of the netlist.
 
-use foveate_toolchain::yosys::{self, YosysJob};
-use foveate_toolchain::{Cache, Source, SynthesisJob, Tool, ToolRecord, Toolchain};
+use foveate_tools::{
+    Cache, Source, SynthesisJob, Tool, ToolRecord, Toolchain,
+    yosys::{self, YosysJob},
+};
 use serde_json::Value;
 
 use super::error::SiliconError;

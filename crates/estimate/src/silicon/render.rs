@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Renders the report as text for a terminal and as Markdown.
 
-use foveate_pictures::page::number_text::{grouped, real_number};
+use foveate_output::number_text::{grouped, real_number};
 
 use super::cell_totals::CellTotals;
 use super::memory_plan::MemoryFigures;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The report on a design in the cells of a library.
 
-use foveate_toolchain::ToolRecord;
+use foveate_tools::ToolRecord;
 use serde::{Deserialize, Serialize};
 
 use super::cell_totals::CellTotals;

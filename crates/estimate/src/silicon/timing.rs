@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The longest path and the leakage of a netlist, from OpenSTA.
 
-use foveate_toolchain::opensta::{self, OpenStaJob};
-use foveate_toolchain::{Cache, Tool, ToolRecord, Toolchain};
+use foveate_tools::{
+    Cache, Tool, ToolRecord, Toolchain,
+    opensta::{self, OpenStaJob},
+};
 use serde::{Deserialize, Serialize};
 
 use super::error::SiliconError;

@@ -7,7 +7,7 @@
 
 use foveate_camera::{CameraConfig, Neighborhood};
 use foveate_design::DesignConfig;
-use foveate_playback::ClipHalves;
+use foveate_media::ClipHalves;
 use serde::Serialize;
 
 use super::FitRequest;
@@ -88,9 +88,8 @@ fn nearest_task(
 mod tests {
     use std::path::PathBuf;
 
-    use foveate_footage::InputOptions;
-    use foveate_playback::SilentHooks;
-    use foveate_toolchain::{Cache, Toolchain};
+    use foveate_media::{InputOptions, SilentHooks};
+    use foveate_tools::{Cache, Toolchain};
 
     use super::*;
     use crate::{Constraints, CostObjective, Synthesizer};

@@ -8,8 +8,8 @@ use foveate_camera::{
     ReferencePolicy, ScoreUnit, SpatialConfig,
 };
 use foveate_design::HardwareConfig;
-use foveate_fidelity::FidelityFigures;
-use foveate_playback::ClipHalves;
+use foveate_measure::FidelityFigures;
+use foveate_media::ClipHalves;
 
 use super::clip_part::ClipPart;
 use super::constraints::{ConstraintCheck, Constraints, PartFigures, all_met, total_excess};
@@ -440,8 +440,7 @@ fn trial_thresholds_of_8_bits(feature: FeatureKind) -> Vec<Vec<SpatialConfig>> {
 
 #[cfg(test)]
 mod tests {
-    use foveate_footage::InputOptions;
-    use foveate_playback::{RunMonitor, SilentHooks};
+    use foveate_media::{InputOptions, RunMonitor, SilentHooks};
 
     use super::super::test_clip::{remove_frames, write_clip};
     use super::*;

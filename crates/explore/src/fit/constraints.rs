@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 
 use foveate_camera::Camera;
 use foveate_estimate::FrameRate;
-use foveate_fidelity::FidelityFigures;
+use foveate_measure::FidelityFigures;
 use serde::Serialize;
 
 use super::decision_rates::{DecisionGroups, DecisionRate, DecisionRates, MIN_REGIONS};

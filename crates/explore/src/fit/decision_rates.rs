@@ -2,7 +2,7 @@
 //! The flips, missed regions and false alarms of a camera in a part of all clips, and the rates to
 //! expect of other frames.
 
-use foveate_fidelity::DecisionAreas;
+use foveate_measure::DecisionAreas;
 
 use super::sampling_error::{frame_group, group_count, group_margin, share_of_others};
 use crate::row::count_to_f64;
@@ -78,7 +78,7 @@ impl DecisionGroups {
 
 #[cfg(test)]
 mod tests {
-    use foveate_fidelity::ActiveAreas;
+    use foveate_measure::ActiveAreas;
 
     use super::*;
 

@@ -3,8 +3,8 @@
 
 use foveate_design::DesignConfig;
 use foveate_estimate::FrameRate;
-use foveate_fidelity::FidelityFigures;
-use foveate_playback::ClipHalves;
+use foveate_measure::FidelityFigures;
+use foveate_media::ClipHalves;
 use serde::Serialize;
 
 use super::activity_target::ActivityTarget;

@@ -57,10 +57,9 @@ pub(crate) use sampling_error::group_margin;
 use std::ops::Range;
 use std::path::PathBuf;
 
+use foveate_cosim::ActivityClip;
 use foveate_design::{DesignConfig, HardwareConfig, LaneMemoryKind, OrganizationConfig};
-use foveate_energy::ActivityClip;
-use foveate_footage::InputOptions;
-use foveate_playback::{ClipHalves, RunHooks, RunMonitor};
+use foveate_media::{ClipHalves, InputOptions, RunHooks, RunMonitor};
 
 use crate::cost::Synthesizer;
 use crate::footage::ExplorationFootage;

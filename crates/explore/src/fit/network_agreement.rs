@@ -11,7 +11,8 @@ use foveate_inference::{
     ConfidenceIntervals, FrameOutcome, InferenceError, NOISE_LEVELS, NoiseComparison,
     OutputAgreement, VisionNetwork, frame_format_of, has_class_map,
 };
-use foveate_playback::{ClipHalves, FrameDepths, RunMonitor};
+use foveate_media::{ClipHalves, FrameDepths, RunMonitor};
+use foveate_tools::open_file;
 use rayon::prelude::*;
 
 use super::agreement_estimate::AgreementEstimate;
@@ -50,8 +51,9 @@ impl<'a> NetworkAgreement<'a> {
         halves: &'a ClipHalves,
         task: &CameraConfig,
     ) -> Result<Self, ExploreError> {
-        let vision_network = VisionNetwork::read(goal.path, footage.size, goal.vision_options)
-            .map_err(InferenceError::from)?;
+        let vision_network =
+            VisionNetwork::read(goal.path, open_file, footage.size, goal.vision_options)
+                .map_err(InferenceError::from)?;
         let camera = task.validate()?;
         let clips = halves.frames.len() as u64;
         let most = (goal.frames / clips).max(1);
@@ -195,9 +197,8 @@ impl<'a> NetworkAgreement<'a> {
 mod tests {
     use std::path::{Path, PathBuf};
 
-    use foveate_footage::InputOptions;
     use foveate_inference::{Framing, PixelMapping, VisionOptions};
-    use foveate_playback::SilentHooks;
+    use foveate_media::{InputOptions, SilentHooks};
 
     use super::super::test_clip::{remove_frames, write_clip};
     use super::*;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The designs that can build a camera, before any of them is synthesized.
 
+use foveate_camera::CameraConfig;
 use foveate_design::{
-    CameraConfig, Design, DesignConfig, HardwareConfig, LaneMemoryKind, Organization,
-    OrganizationConfig, PixelFeed, RasterConfig, SerialConfig,
+    Design, DesignConfig, HardwareConfig, LaneMemoryKind, Organization, OrganizationConfig,
+    PixelFeed, RasterConfig, SerialConfig,
 };
 use foveate_estimate::most_clocks_per_frame;
 

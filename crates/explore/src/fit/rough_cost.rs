@@ -2,7 +2,8 @@
 //! A rough cost of a design before its synthesis, which only orders the designs that are
 //! synthesized. The choice is made with the figures of Yosys.
 
-use foveate_design::{DenoiseFilter, Design, FeatureKind, Hardware, RasterMemory};
+use foveate_camera::{DenoiseFilter, FeatureKind};
+use foveate_design::{Design, Hardware, RasterMemory};
 use foveate_estimate::FpgaDevice;
 
 use super::FitRequest;

@@ -3,10 +3,10 @@
 //! camera. They are kept in memory if they fit, and read again otherwise.
 
 use foveate_camera::Camera;
-use foveate_fidelity::{DecisionAreas, DecisionState, FrameOrder, GridCells};
-use foveate_frame::ByteFrame;
 use foveate_ideal::IdealCamera;
-use foveate_playback::{ClipHalves, PlayedFrame, RunMonitor, RunProgress};
+use foveate_measure::{DecisionAreas, DecisionState, FrameOrder, GridCells};
+use foveate_media::{ClipHalves, PlayedFrame, RunMonitor, RunProgress};
+use foveate_pixels::ByteFrame;
 
 use super::clip_part::ClipPart;
 use super::sampling_error::frame_group;

@@ -3,7 +3,7 @@
 //! order, and when that ends.
 
 use foveate_design::{Design, LaneMemoryKind, Organization};
-use foveate_playback::RunHooks;
+use foveate_media::RunHooks;
 
 use super::FitRequest;
 use super::camera_search::{CameraSearch, ExaminedCamera};

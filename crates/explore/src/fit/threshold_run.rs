@@ -3,11 +3,11 @@
 
 use foveate_camera::{Camera, CameraConfig, Decimal};
 use foveate_engine::Engine;
-use foveate_fidelity::{
+use foveate_measure::{
     ChosenSteps, DecisionAreas, DecisionLimits, DecisionState, GridCells, MinimumSteps,
     ThresholdTable,
 };
-use foveate_playback::FrameDepths;
+use foveate_media::FrameDepths;
 
 use super::decision_rates::DecisionGroups;
 use super::sampling_error::FRAME_GROUPS;

@@ -10,8 +10,8 @@
 use std::collections::BTreeSet;
 
 use foveate_camera::{CameraConfig, Decimal};
-use foveate_fidelity::{DecisionLimits, ThresholdTable};
-use foveate_playback::{FrameDepths, RunProgress};
+use foveate_measure::{DecisionLimits, ThresholdTable};
+use foveate_media::{FrameDepths, RunProgress};
 use rayon::prelude::*;
 
 use super::constraints::{ConstraintCheck, Constraints, all_met};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tests of the page in Chromium. Without Chromium they are skipped and say so.
 
-use foveate_pictures::page::browser::{ExpectedMark, chromium, probe_page};
+use foveate_output::page::browser::{ExpectedMark, chromium, probe_page};
 
 use super::render_page;
 use super::sample::sample_exploration;

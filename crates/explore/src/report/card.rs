@@ -2,7 +2,7 @@
 //! The card of a point, with all its figures.
 
 use foveate_estimate::ramb36;
-use foveate_pictures::page::number_text::{grouped, percent, real_number};
+use foveate_output::number_text::{grouped, percent, real_number};
 
 use super::setting::PointSettings;
 use super::table::psnr_cell;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The colours of points: one grouping for each axis. The page shows one grouping at a time.
 
-use foveate_pictures::page::{COLOUR_COUNT, group_look};
+use foveate_output::page::{COLOUR_COUNT, group_look};
 
 use super::setting::{PointSettings, axes_set};
 use crate::DesignRow;

@@ -2,7 +2,7 @@
 //! Made-up explorations, for tests of the page.
 
 use foveate_estimate::{Area, ClockEstimate, FrameRate, LogicPath};
-use foveate_fidelity::{FidelityFigures, ScoreError, Staleness};
+use foveate_measure::{FidelityFigures, ScoreError, Staleness};
 
 use crate::objective::mark_fronts;
 use crate::row::count_to_f64;

@@ -4,7 +4,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use foveate_pictures::page::{
+use foveate_output::page::{
     PagePlot, PlotAxes, PlotAxis, PlotLine, PlotMark, coordinate_text, front_path, group_look,
     nest_marks,
 };

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The setup and the findings of an exploration in a few lines.
 
-use foveate_link::LinkRate;
-use foveate_pictures::page::HeadingFigure;
-use foveate_pictures::page::number_text::{MISSING, counted, grouped, real_number};
+use crate::link::LinkRate;
+use foveate_output::{
+    number_text::{MISSING, counted, grouped, real_number},
+    page::HeadingFigure,
+};
 
 use crate::Exploration;
 

@@ -3,9 +3,11 @@
 
 use std::collections::HashMap;
 
-use foveate_files::tables::{NamedCells, TableCell as FileCell};
-use foveate_pictures::page::number_text::{percent, real_number};
-use foveate_pictures::page::{TableCell, TableColumn, TableRow};
+use foveate_output::{
+    number_text::{percent, real_number},
+    page::{TableCell, TableColumn, TableRow},
+    tables::{NamedCells, TableCell as FileCell},
+};
 
 use super::setting::{PointSettings, axes_set};
 use crate::DesignRow;

@@ -3,9 +3,11 @@
 
 use std::collections::BTreeMap;
 
-use foveate_pictures::page::number_text::percent;
-use foveate_pictures::page::{
-    PagePlot, PlotAxes, PlotAxis, PlotLine, PlotMark, coordinate_text, group_look, line_path,
+use foveate_output::{
+    number_text::percent,
+    page::{
+        PagePlot, PlotAxes, PlotAxis, PlotLine, PlotMark, coordinate_text, group_look, line_path,
+    },
 };
 
 use super::scatter::stack_marks;

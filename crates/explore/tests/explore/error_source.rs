@@ -7,9 +7,7 @@ use std::path::{Path, PathBuf};
 
 use foveate_camera::CameraConfig;
 use foveate_explore::{DisturbedDesign, ErrorSourceRow, compare, disturb_design};
-use foveate_footage::InputOptions;
-use foveate_playback::ClipPlayer;
-use foveate_playback::testing::RecordingHooks;
+use foveate_media::{ClipPlayer, InputOptions, testing::RecordingHooks};
 
 const NAMES: [&str; 7] =
     ["windows", "filter", "bits", "thresholds", "fraction bits", "reference", "interaction"];

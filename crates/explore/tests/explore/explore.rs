@@ -11,11 +11,8 @@ use foveate_estimate::{EstimateJob, estimate};
 use foveate_explore::{
     DesignSpace, Exploration, ExploreError, ExploreRequest, SynthesisRequest, Synthesizer, explore,
 };
-use foveate_footage::InputOptions;
-use foveate_playback::testing::RecordingHooks;
-use foveate_playback::{PlaybackError, RunHooks, RunProgress};
-use foveate_toolchain::testing::require_tools;
-use foveate_toolchain::{Cache, Tool, Toolchain};
+use foveate_media::{InputOptions, PlaybackError, RunHooks, RunProgress, testing::RecordingHooks};
+use foveate_tools::{Cache, Tool, Toolchain, testing::require_tools};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 

@@ -11,12 +11,14 @@ use foveate_explore::{
     ConstraintCheck, Constraints, CostObjective, ExploreError, FitRequest, FitResult, NetworkGoal,
     Synthesizer, fit,
 };
-use foveate_footage::{InputOptions, open};
 use foveate_inference::{Framing, PixelMapping, VisionOptions};
-use foveate_playback::testing::RecordingHooks;
-use foveate_playback::{InputError, PlaybackError, RunHooks, SilentHooks};
-use foveate_toolchain::testing::{require_tools, takes_whole_lists};
-use foveate_toolchain::{Cache, Tool, Toolchain};
+use foveate_media::{
+    InputError, InputOptions, PlaybackError, RunHooks, SilentHooks, open, testing::RecordingHooks,
+};
+use foveate_tools::{
+    Cache, Tool, Toolchain,
+    testing::{require_tools, takes_whole_lists},
+};
 
 /// The number of frames of most fits: with fewer, a part of them has too few regions to decide.
 const FRAMES: u32 = 30;

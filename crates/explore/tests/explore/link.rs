@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use foveate_explore::{DesignSpace, Exploration};
-use foveate_playback::testing::RecordingHooks;
+use foveate_media::testing::RecordingHooks;
 
 use crate::explore::run;
 use crate::unit::{files, measure_only, units};

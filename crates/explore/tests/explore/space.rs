@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Spaces as files define them.
 
-use foveate_design::{Decimal, DesignConfig};
+use foveate_camera::Decimal;
+use foveate_design::DesignConfig;
 use foveate_explore::{BUILT_IN_SPACES, DesignSpace};
 
 fn points(text: &str) -> (Vec<DesignConfig>, Vec<String>) {
@@ -69,7 +70,7 @@ fn thresholds_are_in_grey_levels_of_the_start() {
         let [edge, mad, variance] = config.camera.spatial.as_slice() else {
             panic!("three features")
         };
-        let score = |entry: &foveate_design::SpatialConfig| entry.min_score.unwrap();
+        let score = |entry: &foveate_camera::SpatialConfig| entry.min_score.unwrap();
         (
             edge.level.unwrap(),
             config.camera.temporal.level.unwrap(),

@@ -8,9 +8,7 @@ use std::path::{Path, PathBuf};
 use foveate_explore::{
     DesignSpace, ExploreError, ExploreRequest, WorkUnit, measure_unit, plan_units,
 };
-use foveate_footage::InputOptions;
-use foveate_playback::PlaybackError;
-use foveate_playback::testing::RecordingHooks;
+use foveate_media::{InputOptions, PlaybackError, testing::RecordingHooks};
 
 use crate::explore::{SPACE, run};
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Scores that a person can check by hand.
 
-use foveate_camera::RegionAction;
 use foveate_camera::{
     Camera, CameraConfig, Decimal, DenoiseFilter, FeatureKind, Neighborhood, ReferencePolicy,
-    SpatialConfig,
+    RegionAction, SpatialConfig,
 };
-use foveate_frame::ByteFrame;
 use foveate_ideal::{IdealCamera, IdealError, IdealOutcome};
+use foveate_pixels::ByteFrame;
 
 /// Returns a configuration with all features, in the order of `FeatureKind::ALL`, and without
 /// a filter. The minimum of `segment` is one that every region can have.

@@ -6,7 +6,7 @@ use foveate_camera::{
     KeenPeripheryConfig, KeenSpatialConfig, KeenTemporalConfig, Neighborhood, Payload,
     ReferencePolicy, RegionClass, SpatialConfig, VoteCombination, ZonesConfig,
 };
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 use proptest::prelude::*;
 use proptest::sample::{select, subsequence};
 

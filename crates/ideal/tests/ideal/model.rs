@@ -8,10 +8,9 @@ use foveate_camera::{
     Camera, CameraConfig, Decimal, DenoiseFilter, FeatureKind, Neighborhood, RegionClass,
     SpatialConfig,
 };
-use foveate_frame::ByteFrame;
-use foveate_frame::Frame;
 use foveate_ideal::{IdealCamera, IdealOutcome};
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
+use foveate_pixels::{ByteFrame, Frame};
 use proptest::prelude::*;
 
 /// Converts a score of the model to the unit of the ideal camera.

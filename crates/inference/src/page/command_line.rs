@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The command line in a form that a shell reads.
 
-use foveate_toolchain::escaping::shell_word;
+use foveate_tools::escaping::shell_word;
 
 /// Joins the words, and quotes those that a shell would split or expand.
 pub(super) fn shell_command(words: &[String]) -> String {

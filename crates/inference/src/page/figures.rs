@@ -2,8 +2,10 @@
 //! Figures in the format of the page, and the figures of its heading.
 
 use crate::InferenceSummary;
-use foveate_pictures::page::HeadingFigure;
-use foveate_pictures::page::number_text::{MISSING, grouped, percent, real_number};
+use foveate_output::{
+    number_text::{MISSING, grouped, percent, real_number},
+    page::HeadingFigure,
+};
 
 /// Formats a share as a percentage.
 pub(super) fn share_text(value: f64) -> String {

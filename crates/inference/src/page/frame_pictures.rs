@@ -4,7 +4,7 @@
 use crate::Detection;
 use crate::whole_frames::{KeptScreen, KeptScreens};
 use askama::Template;
-use foveate_pictures::page::PageError;
+use foveate_output::page::PageError;
 
 struct DetectionBox {
     /// The fate of the detection, as a CSS class and in words: `kept`, `lost` or `added`.

@@ -3,10 +3,12 @@
 //! figures.
 
 use crate::charts::ChartWithIds;
-use foveate_pictures::chart::ChartData;
-use foveate_pictures::page::{
-    PagePlot, PlotAxes, PlotAxis, PlotLine, PlotMark, coordinate_text, group_look, line_path,
-    nest_marks,
+use foveate_output::{
+    chart::ChartData,
+    page::{
+        PagePlot, PlotAxes, PlotAxis, PlotLine, PlotMark, coordinate_text, group_look, line_path,
+        nest_marks,
+    },
 };
 use std::collections::BTreeMap;
 

@@ -11,8 +11,10 @@ use crate::table_columns::{
     CLIPS, FRAMES, FigureColumn as Fact, FigureValue, LAYERS, TRIALS, shape_text,
 };
 use crate::{InferenceSummary, LayerSummary};
-use foveate_pictures::page::number_text::real_number;
-use foveate_pictures::page::{SortableTable, TableCell, TableColumn, TableRow};
+use foveate_output::{
+    number_text::real_number,
+    page::{SortableTable, TableCell, TableColumn, TableRow},
+};
 use std::collections::BTreeMap;
 
 pub(super) struct TableRows {

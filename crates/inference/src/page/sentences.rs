@@ -11,7 +11,7 @@ use crate::{
 };
 use foveate_design::Design;
 use foveate_network::ExecutionMode;
-use foveate_pictures::page::number_text::{counted, grouped};
+use foveate_output::number_text::{counted, grouped};
 use std::path::Path;
 
 /// The number of inputs that are named; the others are counted.
@@ -104,7 +104,7 @@ fn mapping_sentence(mapping: &PixelMapping) -> String {
 
 /// Describes the camera in a few words.
 pub(super) fn camera_text(design: &Design) -> String {
-    let feature = |feature: &foveate_design::SpatialFeature| {
+    let feature = |feature: &foveate_camera::SpatialFeature| {
         feature
             .level()
             .map_or(feature.kind().to_string(), |level| format!("{} {level}", feature.kind()))

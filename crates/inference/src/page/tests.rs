@@ -10,7 +10,7 @@ use crate::{
 };
 use foveate_design::DesignConfig;
 use foveate_network::ExecutionMode;
-use foveate_pictures::page::browser::{ExpectedMark, chromium, probe_page};
+use foveate_output::page::browser::{ExpectedMark, chromium, probe_page};
 use roxmltree::{Document, Node, ParsingOptions};
 
 const BAD: &str = "\"><script>alert('&amp;')</script>";

@@ -7,13 +7,15 @@ use super::noise_comparison::NoiseComparison;
 use super::precision::PrecisionCurve;
 use super::summary::{GroundTruthFigures, ReceiverTally, WholeFrameAgreement, psnr_of_error};
 use crate::camera::{OriginalFrame, ReceivedFrame, frame_format_of};
-use foveate_design::Camera;
-use foveate_frame::FramePixels;
-use foveate_network::Executor;
-use foveate_network::vision::{
-    AgreementSums, Detection, DetectionCounts, DetectionPairs, FrameFindings, SAME_OBJECT_OVERLAP,
-    VisionNetwork, VisionRun,
+use foveate_camera::Camera;
+use foveate_network::{
+    Executor,
+    vision::{
+        AgreementSums, Detection, DetectionCounts, DetectionPairs, FrameFindings,
+        SAME_OBJECT_OVERLAP, VisionNetwork, VisionRun,
+    },
 };
+use foveate_pixels::FramePixels;
 
 /// The network on whole frames, and its agreement with the network behind the camera.
 pub(crate) struct WholeFrameComparison<'a> {

@@ -6,8 +6,10 @@
 //! the American Statistical Association 22 (1927), pages 209 to 212. It assumes that the things are
 //! independent.
 
-use foveate_network::Network;
-use foveate_network::vision::{AgreementSums, DetectionCounts};
+use foveate_network::{
+    Network,
+    vision::{AgreementSums, DetectionCounts},
+};
 use serde::Serialize;
 
 /// The number of standard deviations from the mean within which 95 % of the values of a normal

@@ -6,9 +6,9 @@ use std::io::Cursor;
 use crate::camera::ReceivedFrame;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
-use foveate_design::Camera;
-use foveate_frame::convert_depth;
+use foveate_camera::Camera;
 use foveate_network::vision::{DetectionCounts, DetectionPairs};
+use foveate_pixels::convert_depth;
 use image::{ImageFormat, ImageResult, Luma};
 
 /// The number of frames that are kept.

@@ -78,7 +78,7 @@ impl NoiseComparison {
         let mut sums = Vec::new();
         for (_, noise) in &self.levels {
             noise.add(frame, seed, &mut self.noisy_frame);
-            looking.run(foveate_frame::FramePixels::Words(&self.noisy_frame));
+            looking.run(foveate_pixels::FramePixels::Words(&self.noisy_frame));
             let found = looking.findings();
             sums.push(AgreementSums::from_frame(
                 whole,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Average precision against ground truth.
 
-use foveate_frame::Rect;
 use foveate_network::vision::{Detection, match_detections};
+use foveate_pixels::Rect;
 
 /// The number of steps of recall from 0 to 1 at which precision is read, as in COCO.
 const RECALL_STEPS: u32 = 100;

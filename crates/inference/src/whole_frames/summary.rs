@@ -4,7 +4,7 @@
 use super::interval::ConfidenceIntervals;
 use super::noise_comparison::NoiseAgreement;
 use crate::camera::SentCount;
-use foveate_design::Camera;
+use foveate_camera::Camera;
 use foveate_network::vision::{self, ClassAgreement, DetectionAgreement};
 use serde::Serialize;
 

@@ -4,8 +4,8 @@
 
 use crate::common::{RunSetup, TableRow, is_counted, is_near, number, rows, text};
 use foveate_inference::{Computation, TuningGoal};
+use foveate_media::testing::RecordingHooks;
 use foveate_network::ExecutionMode;
-use foveate_playback::testing::RecordingHooks;
 
 /// Returns the bytes of an array after its header.
 fn values(folder: &std::path::Path) -> Vec<u8> {

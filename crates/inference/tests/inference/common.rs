@@ -7,13 +7,12 @@ use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 
 use foveate_design::DesignConfig;
-use foveate_footage::InputOptions;
 use foveate_inference::{
     Computation, Detector, Framing, Inference, InferenceError, InferenceOptions, InferenceSummary,
     PixelMapping, RecordOptions, VisionOptions, read_accelerator,
 };
+use foveate_media::{InputOptions, RunHooks, SilentHooks};
 use foveate_network::ExecutionMode;
-use foveate_playback::{RunHooks, SilentHooks};
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 

@@ -9,10 +9,12 @@ use foveate_inference::{
     VisionNetwork, VisionOptions, WholeFrameAgreement, frame_format_of, parse_detector,
     parse_framing,
 };
-use foveate_network::ExecutionMode;
-use foveate_network::onnx::{
-    AttributeProto, Dimension, GraphProto, ModelProto, NodeProto, TensorProto, TensorShapeProto,
-    TensorTypeProto, TypeProto, ValueInfoProto, data_type,
+use foveate_network::{
+    ExecutionMode,
+    onnx::{
+        AttributeProto, Dimension, GraphProto, ModelProto, NodeProto, TensorProto,
+        TensorShapeProto, TensorTypeProto, TypeProto, ValueInfoProto, data_type,
+    },
 };
 use prost::Message as _;
 
@@ -218,15 +220,16 @@ fn half_of_the_objects_give_an_agreement_of_one_half() {
         mapping: foveate_inference::PixelMapping { mean: vec![0.0], scale: vec![1.0] },
         detector: Some(squares()),
     };
-    let vision_network = VisionNetwork::read(&network, (64, 48), &vision_options).unwrap();
-    let mut config = foveate_design::CameraConfig::default();
+    let vision_network =
+        VisionNetwork::read(&network, foveate_tools::open_file, (64, 48), &vision_options).unwrap();
+    let mut config = foveate_camera::CameraConfig::default();
     (config.frame.width, config.frame.height) = (Some(64), Some(48));
     let camera = config.validate().unwrap();
     let bright: Vec<u8> = (0..64 * 48).map(|at| if at % 64 < 16 { 250 } else { 10 }).collect();
     let half: Vec<u8> = (0..64 * 48).map(|at| if at % 64 < 8 { 250 } else { 10 }).collect();
     let mut looking = vision_network.start_run(frame_format_of(&camera));
     let [whole, other] =
-        [&bright, &half].map(|pixels| looking.outcome(foveate_frame::FramePixels::Bytes(pixels)));
+        [&bright, &half].map(|pixels| looking.outcome(foveate_pixels::FramePixels::Bytes(pixels)));
     let same = vision_network.compare(&whole, &whole);
     assert_eq!((same.share(), same.detection_counts().unwrap().whole), (1.0, 12));
     let less = vision_network.compare(&whole, &other);
@@ -234,7 +237,7 @@ fn half_of_the_objects_give_an_agreement_of_one_half() {
     let both: OutputAgreement = [&less, &same].into_iter().sum();
     assert_eq!(both.share(), 0.75);
     assert!(
-        VisionNetwork::read(&network, (32, 48), &vision_options)
+        VisionNetwork::read(&network, foveate_tools::open_file, (32, 48), &vision_options)
             .unwrap_err()
             .to_string()
             .contains("letterbox")
@@ -242,7 +245,7 @@ fn half_of_the_objects_give_an_agreement_of_one_half() {
     let vision_options =
         VisionOptions { detector: Some(parse_detector("ssd").unwrap()), ..vision_options };
     assert!(
-        VisionNetwork::read(&network, (64, 48), &vision_options)
+        VisionNetwork::read(&network, foveate_tools::open_file, (64, 48), &vision_options)
             .unwrap_err()
             .to_string()
             .contains("`found` [1, 7, 6, 8]")

@@ -9,7 +9,7 @@ use foveate_camera::{
     RegionAction, SpatialFeature,
 };
 use foveate_design::Design;
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 
 use super::{
     DifferenceSum, DisplacementExplanation, FrameIdentification, ReferenceDifferences,

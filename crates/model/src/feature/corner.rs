@@ -6,7 +6,7 @@ use foveate_camera::Camera;
 
 use crate::region_view::{FrameRegion, RegionView};
 use crate::window::{CENTER, PixelWindow};
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 
 /// The positions of the neighbors of the center in a window, clockwise from the upper left.
 const RING: [usize; 8] = [0, 1, 2, 5, 8, 7, 6, 3];

@@ -5,7 +5,7 @@ use foveate_camera::Camera;
 
 use crate::region_view::{FrameRegion, RegionView};
 use crate::window::PixelWindow;
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 
 /// Returns the Sobel magnitude `|Gx| + |Gy|` of the center.
 ///

@@ -16,7 +16,7 @@ use foveate_camera::{Camera, FeatureKind, SpatialFeature};
 use crate::conversions::count_true;
 use crate::region_view::{FrameRegion, RegionView};
 use crate::window::PixelWindow;
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 
 pub use corner::corner_strengths;
 pub use edge::edge_magnitudes;

@@ -11,7 +11,7 @@
 //!
 //! The values between the registers cannot be observed, so the model computes the filter at once.
 
-use foveate_design::DenoiseFilter;
+use foveate_camera::DenoiseFilter;
 
 use super::delay_line::DelayLine;
 use super::pixel::StagePixel;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The values that travel between the stages.
 
-use foveate_design::RegionClass;
+use foveate_camera::RegionClass;
 
 use super::rpu_parameters::MAX_FEATURES;
 use crate::feature::surface::WindowDifferences;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The RCM: one RPU per region, all clocked together.
 
-use foveate_design::{FeatureKind, PipelinedDesign, PortRole};
+use foveate_camera::FeatureKind;
+use foveate_design::{PipelinedDesign, PortRole};
 
 use super::RpuOutput;
 use super::rpu_array::RpuArray;

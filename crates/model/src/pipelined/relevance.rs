@@ -2,7 +2,7 @@
 //! The decision, which is combinational: it depends on the score ports and the thresholds of the
 //! clock.
 
-use foveate_design::RegionClass;
+use foveate_camera::RegionClass;
 
 use super::rpu_parameters::{MAX_FEATURES, RpuParameters};
 use crate::ThresholdInputs;

@@ -22,7 +22,7 @@ impl PipelinedRpu {
     }
 
     /// Applies one rising edge, and returns every output after it, with these inputs still applied.
-    /// In a design with zones the class of the region is [`foveate_design::RegionClass::Normal`].
+    /// In a design with zones the class of the region is [`foveate_camera::RegionClass::Normal`].
     pub fn step(&mut self, input: &RpuInput, thresholds: &ThresholdInputs) -> RpuOutput {
         let &RpuInput { reset, valid, pixel, border } = input;
         let thresholds = ClassThresholdInputs::new(thresholds, None);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! RPUs that are clocked together: their stages in sequence.
 
-use foveate_design::{FeatureKind, PipelinedDesign, RegionClass};
+use foveate_camera::{FeatureKind, RegionClass};
+use foveate_design::PipelinedDesign;
 
 use super::delay_line::DelayLine;
 use super::filter::FilterStage;

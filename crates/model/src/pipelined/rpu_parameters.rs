@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The parameters of the blocks of an RPU, which are taken from the design once.
 
-use foveate_design::{
+use foveate_camera::{
     DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood, Payload, Periphery,
-    PipelinedDesign, PipelinedTiming, ReferencePolicy, VoteCombination,
+    ReferencePolicy, VoteCombination,
 };
+use foveate_design::{PipelinedDesign, PipelinedTiming};
 
 use crate::conversions::index;
 use crate::thresholds::{ClassThresholdInputs, ThresholdConstants};

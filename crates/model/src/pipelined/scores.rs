@@ -10,7 +10,7 @@
 //! segment           ..      -     0 ..       segment(t)   0 ..
 //! ```
 
-use foveate_design::FeatureKind;
+use foveate_camera::FeatureKind;
 
 use super::pixel::TailStep;
 use super::region_sums::RegionSums;

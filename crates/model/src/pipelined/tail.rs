@@ -14,7 +14,7 @@
 //! With a second pass the decision after edge 8 is that of frame a, and its pixels leave while
 //! frame c comes in.
 
-use foveate_design::{Payload, RegionAction, RegionClass};
+use foveate_camera::{Payload, RegionAction, RegionClass};
 
 use super::frame_store::RegionFrameStore;
 use super::pixel::{StagePixel, TailStep};

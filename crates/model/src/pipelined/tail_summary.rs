@@ -2,7 +2,7 @@
 //! The summaries of a region: the means of the last frames, the means that were sent, and the means
 //! that leave.
 
-use foveate_design::RegionAction;
+use foveate_camera::RegionAction;
 
 use super::relevance::RelevanceBits;
 use super::rpu_parameters::RpuParameters;

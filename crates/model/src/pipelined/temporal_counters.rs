@@ -11,7 +11,7 @@
 //! Without a second pass the reference is known at the first tail step of frame t. With a second
 //! pass it is known when frame t is done, so both counts run.
 
-use foveate_design::{IrrelevantRendering, ReferencePolicy};
+use foveate_camera::{IrrelevantRendering, ReferencePolicy};
 
 use super::frame_store::RegionFrameStore;
 use super::relevance::RelevanceBits;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A window stage for either neighborhood.
 
-use foveate_design::Neighborhood;
+use foveate_camera::Neighborhood;
 
 use super::isolated_window::IsolatedWindow;
 use super::pixel::StagePixel;

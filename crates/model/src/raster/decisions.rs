@@ -2,7 +2,8 @@
 //! The delay of decisions: a fixed number of clocks after the last word of a region has come to the
 //! tail, or after its second pass.
 
-use foveate_design::{RasterTiming, RegionAction, RegionClass};
+use foveate_camera::{RegionAction, RegionClass};
+use foveate_design::RasterTiming;
 
 use super::due_queue::{DueQueue, take_due};
 use crate::region_decision::RegionDecision;

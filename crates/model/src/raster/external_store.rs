@@ -3,8 +3,9 @@
 //! words that it stores. Both events are a fixed number of clocks after a word has come to the
 //! tail.
 
-use foveate_design::{Camera, RasterDesign, RasterTiming};
-use foveate_frame::Frame;
+use foveate_camera::Camera;
+use foveate_design::{RasterDesign, RasterTiming};
+use foveate_pixels::Frame;
 
 use super::advances::WordPosition;
 use super::decisions::CompletedRegion;

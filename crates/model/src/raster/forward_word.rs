@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The words of a region that leaves: its pixels, or the means of its blocks.
 
-use foveate_design::{Camera, Periphery, RasterTiming, RegionAction};
+use foveate_camera::{Camera, Periphery, RegionAction};
+use foveate_design::RasterTiming;
 
 use super::decisions::{DecidedRasterRegion, ScoredRasterRegion};
 use super::word_pixels::WordPixels;

@@ -3,7 +3,7 @@
 //! repeated.
 
 use foveate_design::RasterDesign;
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 
 use super::advances::WordPosition;
 use crate::region::black_padded_frame;

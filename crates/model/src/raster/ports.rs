@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The output ports of the core.
 
-use foveate_design::{FRAME_NUMBERS, FeatureKind, PortRole, RegionAction};
+use foveate_camera::{FeatureKind, RegionAction};
+use foveate_design::{FRAME_NUMBERS, PortRole};
 
 use super::decisions::DecidedRasterRegion;
 use super::external_store::StoreWord;

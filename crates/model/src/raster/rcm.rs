@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The core: the effect of an edge on each of its parts, and the outputs after it.
 
-use foveate_design::{FeatureKind, PortRole, RasterDesign, RasterTiming};
+use foveate_camera::FeatureKind;
+use foveate_design::{PortRole, RasterDesign, RasterTiming};
 
 use super::advances::{AdvanceCounter, WordPosition};
 use super::decisions::{CompletedRegion, DecidedRasterRegion, DecisionQueue};

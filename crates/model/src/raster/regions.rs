@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The state that the core keeps of every region from frame to frame, and its decisions.
 
-use foveate_design::{Camera, RasterDesign, RasterTiming, ReferencePolicy, RegionAction};
-use foveate_frame::Frame;
+use foveate_camera::{Camera, ReferencePolicy, RegionAction};
+use foveate_design::{RasterDesign, RasterTiming};
+use foveate_pixels::Frame;
 
 use super::decisions::{CompletedRegion, DecidedRasterRegion, ScoredRasterRegion};
 use super::forward_word::{DepartingRegion, ForwardWord};

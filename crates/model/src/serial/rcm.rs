@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The array: its position in a frame, and its outputs there.
 
-use foveate_design::{PixelFeed, PortRole, RegionAction, SerialDesign};
+use foveate_camera::RegionAction;
+use foveate_design::{PixelFeed, PortRole, SerialDesign};
 
 use super::intake::FrameIntake;
 use super::ports::SerialOutput;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The state that the array keeps of every region from frame to frame, and its decisions.
 
-use foveate_design::{
-    Camera, Displacement, ReferencePolicy, RegionAction, RegionClass, SerialDesign,
-};
+use foveate_camera::{Camera, Displacement, ReferencePolicy, RegionAction, RegionClass};
+use foveate_design::SerialDesign;
 
 use super::schedule::ForwardedKind;
 use crate::RegionScorer;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The schedule of a frame: the step of the array in every clock, and the outputs of that step.
 
-use foveate_design::{Periphery, PixelFeed, SerialDesign, SerialPhase, SerialTiming};
+use foveate_camera::Periphery;
+use foveate_design::{PixelFeed, SerialDesign, SerialPhase, SerialTiming};
 
 /// The outputs in a step that has any.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -3,13 +3,13 @@
 //! right clock.
 
 use foveate_design::{Design, PipelinedTiming};
-use foveate_frame::Frame;
-use foveate_model::denoising::denoise;
-use foveate_model::feature::{corner_strengths, edge_magnitudes};
 use foveate_model::{
-    PipelinedRpu, RpuInput, ThresholdInputs, pad, region_border, region_stream,
-    temporal_differences,
+    PipelinedRpu, RpuInput, ThresholdInputs,
+    denoising::denoise,
+    feature::{corner_strengths, edge_magnitudes},
+    pad, region_border, region_stream, temporal_differences,
 };
+use foveate_pixels::Frame;
 use proptest::prelude::*;
 
 use crate::frames::{SeededRandom, arbitrary_scripts, make_clip};

@@ -2,8 +2,8 @@
 //! The maps of classes that frames use, by the rules of `docs/zones.md`: a log of all edges, from
 //! which every answer is computed anew. It shares no code with the memory of the models.
 
-use foveate_frame::Frame;
 use foveate_model::ClassMapInputs;
+use foveate_pixels::Frame;
 
 use crate::frames::SeededRandom;
 use crate::oracle::{OracleOutcome, add_to_history};

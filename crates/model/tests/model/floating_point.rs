@@ -2,8 +2,8 @@
 //! Tests of the integer scores against the usual formulas in floating point.
 
 use foveate_design::DesignConfig;
-use foveate_frame::Frame;
 use foveate_model::FunctionalCamera;
+use foveate_pixels::Frame;
 
 use crate::frames::SeededRandom;
 

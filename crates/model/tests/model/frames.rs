@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Clips in which regions become active and inactive again.
 
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 use proptest::prelude::*;
 
 use crate::parameters::DesignParameters;

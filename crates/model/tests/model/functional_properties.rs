@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tests that the functional model equals the oracle, for every kind of design.
 
-use foveate_design::Camera;
-use foveate_frame::Frame;
+use foveate_camera::Camera;
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
+use foveate_pixels::Frame;
 use proptest::prelude::*;
 
 use crate::frames::{arbitrary_scripts, make_clip};

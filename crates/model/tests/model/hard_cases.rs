@@ -2,12 +2,13 @@
 //! Tests of cases at the ends of ranges, with explicit expected numbers.
 
 use foveate_design::{Design, DesignConfig};
-use foveate_frame::Frame;
-use foveate_model::feature::{corner_strengths, edge_magnitudes};
 use foveate_model::{
-    FunctionalCamera, ModelError, PipelinedRcm, denoising::denoise, pad, region_border,
-    region_stream, temporal_differences,
+    FunctionalCamera, ModelError, PipelinedRcm,
+    denoising::denoise,
+    feature::{corner_strengths, edge_magnitudes},
+    pad, region_border, region_stream, temporal_differences,
 };
+use foveate_pixels::Frame;
 
 use crate::parameters::{DesignParameters, FeatureParameters, PeripheryParameters};
 use crate::{functional_properties, pipelined_properties};

@@ -3,7 +3,7 @@
 //! up every earlier value in the complete history. It shares only the type of frames with the
 //! library.
 
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 
 use crate::parameters::{DesignParameters, FeatureParameters};
 

@@ -3,10 +3,11 @@
 
 use std::fmt::Write;
 
-use foveate_design::{
-    Camera, Decimal, DenoiseFilter, Design, DesignConfig, FeatureKind, KeenConfig,
-    KeenPeripheryConfig, KeenSpatialConfig, KeenTemporalConfig, Organization, ZonesConfig,
+use foveate_camera::{
+    Camera, Decimal, DenoiseFilter, FeatureKind, KeenConfig, KeenPeripheryConfig,
+    KeenSpatialConfig, KeenTemporalConfig, ZonesConfig,
 };
+use foveate_design::{Design, DesignConfig, Organization};
 use proptest::prelude::*;
 use proptest::sample::{select, subsequence};
 

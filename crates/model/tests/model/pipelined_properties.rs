@@ -2,12 +2,13 @@
 //! Tests that the cycle-level model shows the outputs of the schedule and the oracle after every
 //! edge, and that its decisions are those of the functional model.
 
-use foveate_design::{PipelinedTiming, RegionAction, RegionClass};
-use foveate_frame::Frame;
+use foveate_camera::{RegionAction, RegionClass};
+use foveate_design::PipelinedTiming;
 use foveate_model::{
     ClassMapInputs, CoreInput, FunctionalCamera, PipelinedRcm, RpuOutput, ThresholdInputs,
     ZoneInputs, region_pixels, region_stream,
 };
+use foveate_pixels::Frame;
 use proptest::prelude::*;
 
 use crate::frames::{SeededRandom, arbitrary_scripts, make_clip};

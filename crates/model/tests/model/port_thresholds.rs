@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The thresholds at the ports of a core, with or without zones, and designs with other thresholds.
 
-use foveate_design::{Camera, FeatureKind, RegionClass};
+use foveate_camera::{Camera, FeatureKind, RegionClass};
 use foveate_model::{ClassMapInputs, ThresholdInputs, ZoneInputs};
 
 use crate::frames::SeededRandom;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The screen of a receiver behind an array or core, which shows the output at once.
 
-use foveate_design::{Design, RegionAction};
+use foveate_camera::RegionAction;
+use foveate_design::Design;
 
 pub(crate) struct ReceiverScreen {
     pub(crate) design: Design,

@@ -3,8 +3,8 @@
 //! without changes.
 
 use foveate_design::{Design, DesignConfig};
-use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, FunctionalOutcome, PipelinedRpu, RpuInput, ThresholdInputs};
+use foveate_pixels::Frame;
 
 use crate::frames::SeededRandom;
 

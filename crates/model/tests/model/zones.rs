@@ -4,9 +4,9 @@
 
 use std::slice::from_ref;
 
-use foveate_design::{CameraConfig, ClassMapError, RegionClass, ZonesConfig};
-use foveate_frame::Frame;
+use foveate_camera::{CameraConfig, ClassMapError, RegionClass, ZonesConfig};
 use foveate_model::FunctionalCamera;
+use foveate_pixels::Frame;
 use proptest::prelude::*;
 
 use crate::frames::{SeededRandom, arbitrary_scripts, make_clip};

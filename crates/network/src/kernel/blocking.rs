@@ -2,7 +2,7 @@
 //! The number of channels and positions in a pass of the inner loop: as many as possible while all
 //! sums fit into the registers.
 
-use foveate_lanes::InstructionSet;
+use foveate_pixels::lanes::InstructionSet;
 use std::ops::Range;
 
 /// The block sizes of the inner loop.

@@ -12,7 +12,7 @@ use super::gathered_inputs::{ConvInput, GatheredInputs};
 use super::panels::{ConvOutputs, add_block};
 use super::weights::PackedWeights;
 use crate::values::{ByteNumber, TensorNumber};
-use foveate_lanes::{InstructionSet, PanelTask, VectorTask};
+use foveate_pixels::lanes::{InstructionSet, PanelTask, VectorTask};
 use std::ops::Range;
 
 /// The number of products whose sum is exact. A row of the window must not have more.

@@ -11,7 +11,7 @@ use super::gathered_inputs::{ConvInput, StridedInputs, copy_short_run};
 use super::output_areas::OutputArea;
 use crate::activation::Activation;
 use crate::mask::AxisWindow;
-use foveate_lanes::{InstructionSet, PanelTask};
+use foveate_pixels::lanes::{InstructionSet, PanelTask};
 
 /// The convolution of one channel.
 pub(crate) struct DepthwiseChannel<'a> {

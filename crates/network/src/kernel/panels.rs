@@ -8,7 +8,7 @@ use super::gathered_inputs::{ConvInput, GatheredInputs};
 use super::micro_kernel::multiply;
 use super::weights::PackedWeights;
 use crate::activation::Activation;
-use foveate_lanes::{InstructionSet, PanelTask};
+use foveate_pixels::lanes::{InstructionSet, PanelTask};
 use std::ops::Range;
 
 /// The number of inputs of an output that are gathered and multiplied before the next ones are

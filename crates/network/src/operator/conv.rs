@@ -11,7 +11,7 @@ use crate::kernel::{
 use crate::mask::Mask;
 use crate::tensor_form::TensorForm;
 use crate::threads;
-use foveate_lanes::InstructionSet;
+use foveate_pixels::lanes::InstructionSet;
 use std::sync::Arc;
 
 /// A convolution of floating-point values.

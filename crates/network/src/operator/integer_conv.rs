@@ -12,7 +12,7 @@ use crate::mask::Mask;
 use crate::tensor_form::TensorForm;
 use crate::threads;
 use crate::values::ByteNumber;
-use foveate_lanes::InstructionSet;
+use foveate_pixels::lanes::InstructionSet;
 
 /// Weights of 8 bits, with one row per channel. Unsigned weights and their zero points are stored
 /// less 128.

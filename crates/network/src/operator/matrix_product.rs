@@ -6,7 +6,7 @@ use super::{Operator, OperatorJob, ProductKind, output_values};
 use crate::mask::Mask;
 use crate::tensor_form::TensorForm;
 use crate::threads;
-use foveate_lanes::{InstructionSet, VectorTask};
+use foveate_pixels::lanes::{InstructionSet, VectorTask};
 
 #[derive(Clone, Debug)]
 pub(crate) struct MatrixProduct {

@@ -3,9 +3,10 @@
 
 use super::constant::Constant;
 use super::graph::{InputSource, ProblemPolicy};
+use super::model_folder::ModelFolder;
 use super::names::element_type;
 use super::node::GraphValue;
-use super::{decode_model, read_file, read_model_graph};
+use super::{OpenFile, decode_model, read_file, read_model_graph};
 use crate::error::NetworkError;
 use crate::executor::Executor;
 use crate::network::Network;
@@ -31,10 +32,12 @@ struct ArrayOutput {
 /// Reads a network for arrays, one for each of its inputs.
 pub(crate) fn read_for_arrays(
     path: &Path,
+    open: OpenFile,
     arrays: &[TensorProto],
 ) -> Result<ArrayNetwork, NetworkError> {
-    let model = decode_model(&read_file(path)?, path)?;
-    let read = read_model_graph(&model, path, &InputSource::Arrays(arrays), ProblemPolicy::Stop)?;
+    let model = decode_model(&read_file(path, open)?, path)?;
+    let (folder, source) = (ModelFolder::of_model(path, open), InputSource::Arrays(arrays));
+    let read = read_model_graph(&model, (path, &folder), &source, ProblemPolicy::Stop)?;
     let declared = model.graph.iter().flat_map(|graph| &graph.output);
     let outputs = read.outputs.into_iter().zip(declared).map(|((name, known), declared)| {
         let kind = element_type(declared);

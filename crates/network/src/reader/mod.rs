@@ -36,12 +36,16 @@ use graph::{GraphResult, InputSource, ProblemPolicy};
 use model_folder::ModelFolder;
 use node::GraphValue;
 use prost::Message as _;
-use std::io::Read as _;
+use std::fs::File;
+use std::io::{self, Read as _};
 use std::path::Path;
 
 pub(crate) use arrays::read_for_arrays;
 pub use network_input::FrameSize;
 pub use operators::operators;
+
+/// Opens an input file. The executor runs in the browser, too, so the caller knows how files are opened.
+pub type OpenFile = fn(&Path) -> io::Result<File>;
 
 /// The bytes of the largest file.
 const MAX_FILE_BYTES: u64 = 1 << 31;
@@ -60,8 +64,12 @@ impl Network {
     /// # Errors
     /// Fails if the file cannot be read, is not a valid ONNX model, or has an operator that is not
     /// supported. Without a size it also fails if the network takes frames of any size.
-    pub fn read(path: &Path, frames: impl Into<Option<FrameSize>>) -> Result<Self, NetworkError> {
-        Self::parse(&read_file(path)?, path, frames)
+    pub fn read(
+        path: &Path,
+        open: OpenFile,
+        frames: impl Into<Option<FrameSize>>,
+    ) -> Result<Self, NetworkError> {
+        Self::read_bytes(&read_file(path, open)?, &ModelFolder::of_model(path, open), path, frames)
     }
 
     /// Reads a network as [`Network::read`] does, from the content of the file `path`. Data outside
@@ -74,9 +82,18 @@ impl Network {
         path: &Path,
         frames: impl Into<Option<FrameSize>>,
     ) -> Result<Self, NetworkError> {
-        let source = InputSource::Frames(frames.into());
-        let read =
-            read_model_graph(&decode_model(bytes, path)?, path, &source, ProblemPolicy::Stop)?;
+        let open = |path: &Path| File::open(path);
+        Self::read_bytes(bytes, &ModelFolder::of_model(path, open), path, frames)
+    }
+
+    fn read_bytes(
+        bytes: &[u8],
+        folder: &ModelFolder,
+        path: &Path,
+        frames: impl Into<Option<FrameSize>>,
+    ) -> Result<Self, NetworkError> {
+        let (model, source) = (decode_model(bytes, path)?, InputSource::Frames(frames.into()));
+        let read = read_model_graph(&model, (path, folder), &source, ProblemPolicy::Stop)?;
         let constant = read.outputs.iter().find(|(_, of)| matches!(of, GraphValue::Constant(_)));
         match constant {
             None => Ok(read.network),
@@ -86,16 +103,21 @@ impl Network {
         }
     }
 
-    /// Reads a network, and continues after a node that cannot be read. `open` is the size of
+    /// Reads a network, and continues after a node that cannot be read. `size` is the size of
     /// frames if the network takes any. Of a node that depends on one that cannot be read, only the
     /// operator and the attributes are checked.
     ///
     /// # Errors
     /// Fails as [`Network::read`] does, except for problems of nodes.
-    pub fn check(path: &Path, open: FrameSize) -> Result<NetworkCheck, NetworkError> {
-        let model = decode_model(&read_file(path)?, path)?;
-        let read =
-            read_model_graph(&model, path, &InputSource::DefaultFrames(open), ProblemPolicy::Note)?;
+    pub fn check(
+        path: &Path,
+        open: OpenFile,
+        size: FrameSize,
+    ) -> Result<NetworkCheck, NetworkError> {
+        let model = decode_model(&read_file(path, open)?, path)?;
+        let folder = ModelFolder::of_model(path, open);
+        let source = InputSource::DefaultFrames(size);
+        let read = read_model_graph(&model, (path, &folder), &source, ProblemPolicy::Note)?;
         let nodes = model.graph.map_or(0, |graph| graph.node.len());
         let network = if read.problems.is_empty() { Ok(read.network) } else { Err(read.problems) };
         Ok(NetworkCheck { nodes, network })
@@ -113,12 +135,12 @@ pub struct NetworkCheck {
 }
 
 /// Reads the bytes of a file, and fails if they exceed the limit.
-fn read_file(path: &Path) -> Result<Vec<u8>, NetworkError> {
+fn read_file(path: &Path, open: OpenFile) -> Result<Vec<u8>, NetworkError> {
     if !path.metadata().map_err(NetworkError::io(path))?.is_file() {
         return Err(not_onnx(path, "it is not a file"));
     }
     let mut bytes = Vec::new();
-    let file = foveate_reading::open_file(path).map_err(NetworkError::io(path))?;
+    let file = open(path).map_err(NetworkError::io(path))?;
     file.take(MAX_FILE_BYTES + 1).read_to_end(&mut bytes).map_err(NetworkError::io(path))?;
     if bytes.len() as u64 > MAX_FILE_BYTES {
         return Err(not_onnx(path, "it is larger than 2 GiB"));
@@ -133,7 +155,7 @@ fn not_onnx(path: &Path, problem: &str) -> NetworkError {
 /// Reads the graph of a model.
 fn read_model_graph(
     model: &ModelProto,
-    path: &Path,
+    (path, folder): (&Path, &ModelFolder),
     source: &InputSource<'_>,
     on_problem: ProblemPolicy,
 ) -> Result<GraphResult, NetworkError> {
@@ -146,7 +168,7 @@ fn read_model_graph(
         )));
     }
     let functions = model.functions.iter().map(names::full_function_name).collect();
-    graph::read_graph(graph, functions, &ModelFolder::of_model(path), source, (opset, on_problem))
+    graph::read_graph(graph, functions, folder, source, (opset, on_problem))
 }
 
 /// Decodes the model in a file.

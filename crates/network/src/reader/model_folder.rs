@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The folder of a model, whose files hold constants, and the memory that constants may still take.
 
+use super::OpenFile;
 use super::constant_values::ConstantValues;
 use crate::onnx::TensorProto;
 use crate::tensor_form::checked_element_count;
@@ -11,6 +12,7 @@ use std::path::{Component, Path, PathBuf};
 /// The folder of a model, in which data outside of the model file must lie.
 pub(super) struct ModelFolder {
     path: PathBuf,
+    open: OpenFile,
     /// The bytes of constants that may still be read.
     readable_bytes: Cell<u64>,
     /// The bytes of constants that may still be computed.
@@ -24,10 +26,11 @@ const MAX_EXTERNAL_BYTES: u64 = 1 << 32;
 const MAX_COMPUTED_BYTES: u64 = 1 << 30;
 
 impl ModelFolder {
-    pub(super) fn of_model(model: &Path) -> Self {
+    pub(super) fn of_model(model: &Path, open: OpenFile) -> Self {
         let path = model.parent().unwrap_or_else(|| Path::new("")).to_owned();
         Self {
             path,
+            open,
             readable_bytes: Cell::new(MAX_EXTERNAL_BYTES),
             computable_bytes: Cell::new(MAX_COMPUTED_BYTES),
         }
@@ -111,7 +114,7 @@ pub(super) fn read_external_data(
             .map_err(fails)?,
     );
     real.strip_prefix(root).map_err(outside)?;
-    let mut file = foveate_reading::open_file(&real).map_err(fails)?;
+    let mut file = (folder.open)(&real).map_err(fails)?;
     let all = file.metadata().map_err(fails)?.len();
     let offset = number("offset")?.unwrap_or(0);
     let length = number("length")?.unwrap_or(all.saturating_sub(offset));

@@ -18,7 +18,7 @@ use crate::operator::{
 };
 use crate::tensor::Tensor;
 use crate::tensor_form::TensorForm;
-use foveate_lanes::InstructionSet;
+use foveate_pixels::lanes::InstructionSet;
 
 type QuantizedResult<T> = Result<T, String>;
 

@@ -10,7 +10,7 @@ use crate::operator::{
     ArgMax, Conv, Linear, MatrixProduct, Pool, PoolKind, ReducedAxes, ReductionKind,
     ReductionOperator,
 };
-use foveate_lanes::InstructionSet;
+use foveate_pixels::lanes::InstructionSet;
 
 pub(super) fn conv(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
     let value = node.tensor_input(0)?;

@@ -5,7 +5,7 @@ use super::constant::Constant;
 use super::node::{NodeReader, checked_length, length_to_i64};
 use super::node_output::{NodeOutput, output_of_tensors};
 use crate::operator::{TransposedConv, TransposedWindow};
-use foveate_lanes::InstructionSet;
+use foveate_pixels::lanes::InstructionSet;
 
 pub(super) fn conv(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
     let value = node.tensor_input(0)?;

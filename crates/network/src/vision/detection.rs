@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Objects that a network detects, and the matching of two lists of them.
 
-use foveate_frame::Rect;
+use foveate_pixels::Rect;
 
 /// An object that a network detects.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -4,7 +4,7 @@
 use std::fmt;
 
 use super::detection::Detection;
-use foveate_frame::{MAX_COORDINATE, Rect};
+use foveate_pixels::{MAX_COORDINATE, Rect};
 
 /// The strides, in pixels, of the three grids of cells that many detectors have.
 const STRIDES: [usize; 3] = [8, 16, 32];

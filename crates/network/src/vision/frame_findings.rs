@@ -8,7 +8,7 @@ use super::framing::FrameScaling;
 use super::network_defaults::{NetworkDefaults, guess_defaults};
 use crate::executor::Executor;
 use crate::network::Network;
-use foveate_frame::Rect;
+use foveate_pixels::Rect;
 
 /// The outputs of a network for a frame, and the detections in them.
 #[derive(Clone, Debug)]

@@ -5,7 +5,7 @@ use super::framing::FrameScaling;
 use super::pixel_mapping::PixelMapping;
 use crate::mask::Mask;
 use crate::tensor_form::TensorForm;
-use foveate_frame::FramePixels;
+use foveate_pixels::FramePixels;
 
 /// The format of frames: one size and depth, and square regions that change as a whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -18,8 +18,8 @@ use crate::executor::{ExecutionMode, Executor};
 use crate::mask::Mask;
 use crate::network::Network;
 use crate::optional_instant::OptionalInstant;
-use crate::reader::FrameSize;
-use foveate_frame::FramePixels;
+use crate::reader::{FrameSize, OpenFile};
+use foveate_pixels::FramePixels;
 
 /// A network with the conversion of frames of one size to its input.
 #[derive(Debug)]
@@ -68,10 +68,11 @@ impl VisionNetwork {
     /// another number of channels, or if the outputs do not have the format of the detector.
     pub fn read(
         path: &Path,
+        open: OpenFile,
         frame: (u32, u32),
         vision_options: &VisionOptions,
     ) -> Result<Self, VisionError> {
-        Self::read_with(|size| Network::read(path, size), frame, vision_options)
+        Self::read_with(|size| Network::read(path, open, size), frame, vision_options)
     }
 
     /// Reads a network as [`VisionNetwork::read`] does, from the content of the file `path`.

@@ -3,8 +3,10 @@
 //! must be read.
 
 use crate::model::{AttributeValue, ModelBuilder, noise};
-use foveate_network::onnx::{TensorProto, attribute_type, data_type};
-use foveate_network::{ExecutionMode, Executor, Mask, Network, NetworkError};
+use foveate_network::{
+    ExecutionMode, Executor, Mask, Network, NetworkError,
+    onnx::{TensorProto, attribute_type, data_type},
+};
 
 const SIDE: usize = 4;
 

@@ -27,9 +27,12 @@ fn the_page_lists_the_operators() {
 #[test]
 fn the_denoiser_takes_frames_of_any_size() {
     for (width, height) in [(224, 224), (31, 17)] {
-        let network =
-            Network::read(&root().join("networks/denoiser.onnx"), FrameSize { width, height })
-                .unwrap();
+        let network = Network::read(
+            &root().join("networks/denoiser.onnx"),
+            |path| std::fs::File::open(path),
+            FrameSize { width, height },
+        )
+        .unwrap();
         let &[output] = network.outputs() else { panic!("one output") };
         assert_eq!(network.form(output).shape(), [1, 1, height, width]);
     }

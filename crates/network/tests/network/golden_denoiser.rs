@@ -18,7 +18,9 @@ fn the_quantized_denoiser_is_that_of_onnxruntime() {
         .iter()
         .map(|&bytes| f32::from_le_bytes(bytes))
         .collect();
-    let network = Network::read(path, FrameSize { width: 48, height: 32 }).unwrap();
+    let network =
+        Network::read(path, |path| std::fs::File::open(path), FrameSize { width: 48, height: 32 })
+            .unwrap();
     let mut executor = Executor::new(&network, ExecutionMode::Dense);
     executor.step(&picture, &Mask::full(32, 48));
     let &[output] = network.outputs() else { panic!("one output") };

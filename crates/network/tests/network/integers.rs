@@ -8,8 +8,7 @@
 
 use crate::integer_layers::integers;
 use crate::model::{AttributeValue, ModelBuilder, noise};
-use foveate_network::onnx::data_type;
-use foveate_network::{ExecutionMode, Executor, Mask};
+use foveate_network::{ExecutionMode, Executor, Mask, onnx::data_type};
 use proptest::prelude::*;
 
 /// Divides a number by a power of two, and rounds halves to even.

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A builder of ONNX models for tests.
 
-use foveate_network::onnx::{
-    AttributeProto, Dimension, GraphProto, ModelProto, NodeProto, OperatorSetIdProto, TensorProto,
-    TensorShapeProto, TensorTypeProto, TypeProto, ValueInfoProto, data_type,
+use foveate_network::{
+    FrameSize, Network, NetworkError,
+    onnx::{
+        AttributeProto, Dimension, GraphProto, ModelProto, NodeProto, OperatorSetIdProto,
+        TensorProto, TensorShapeProto, TensorTypeProto, TypeProto, ValueInfoProto, data_type,
+    },
 };
-use foveate_network::{FrameSize, Network, NetworkError};
 use prost::Message as _;
 use std::path::Path;
 

@@ -4,8 +4,10 @@
 
 use crate::exactness::signed;
 use crate::model::{AttributeValue, ModelBuilder};
-use foveate_network::onnx::{FunctionProto, ModelProto, data_type};
-use foveate_network::{FrameSize, Network};
+use foveate_network::{
+    FrameSize, Network,
+    onnx::{FunctionProto, ModelProto, data_type},
+};
 use proptest::prelude::*;
 use prost::Message as _;
 use std::path::Path;

@@ -36,7 +36,9 @@ fn outputs_are_those_of_torch() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/network/golden");
     for (name, width, height) in NETWORKS {
         let path = folder.join(format!("{name}.onnx"));
-        let network = Network::read(&path, FrameSize { width, height }).unwrap();
+        let network =
+            Network::read(&path, |path| std::fs::File::open(path), FrameSize { width, height })
+                .unwrap();
         let mut executor = Executor::new(&network, ExecutionMode::Dense);
         executor.step(&values(&path.with_extension("input")), &Mask::full(height, width));
         let found: Vec<f32> = network

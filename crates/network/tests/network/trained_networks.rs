@@ -5,7 +5,7 @@
 
 use crate::exactness::{first_difference, masked_clip};
 use foveate_network::{ExecutionMode, FrameSize, Network};
-use foveate_toolchain::testing::data_folder;
+use foveate_tools::testing::data_folder;
 
 /// The name, width and height of each network.
 const NETWORKS: [(&str, usize, usize); 7] = [
@@ -23,8 +23,9 @@ fn trained_networks_run() {
     let Some(folder) = data_folder() else { return };
     for (name, width, height) in NETWORKS {
         let path = folder.join("networks").join(format!("{name}.onnx"));
-        let network = Network::read(&path, FrameSize { width, height })
-            .unwrap_or_else(|error| panic!("{name}: {error}"));
+        let network =
+            Network::read(&path, |path| std::fs::File::open(path), FrameSize { width, height })
+                .unwrap_or_else(|error| panic!("{name}: {error}"));
         let frames = masked_clip(3, [height, width], &[vec![(width / 3, height / 2, 12)]]);
         assert_eq!(first_difference(&network, ExecutionMode::Exact, &frames), None, "{name}");
     }

@@ -2,7 +2,7 @@
 //! FLOW packets: bytes written by hand from `docs/packets.md`, values that no design can find, and
 //! packets that are missing, come twice or belong to no design.
 
-use foveate_design::Displacement;
+use foveate_camera::Displacement;
 use foveate_packets::{
     FlowPacket, FrameAssembler, Packet, PacketError, PacketLayout, PacketSplitter, ReceivedFrame,
     StreamItem, StreamLoss, packet_writer,

@@ -4,7 +4,8 @@
 use std::ops::Range;
 
 use fastrand::Rng;
-use foveate_design::{Design, DesignConfig, Displacement};
+use foveate_camera::Displacement;
+use foveate_design::{Design, DesignConfig};
 use foveate_packets::{
     EndPacket, FrameAssembler, PacketLayout, PacketSplitter, ReceivedFrame, RegionDecision,
     RegionFlags, StreamItem, StreamLoss, packet_writer,

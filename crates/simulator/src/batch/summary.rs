@@ -4,7 +4,7 @@
 use serde::Serialize;
 
 use crate::RunSummary;
-use foveate_footage::{BatchClip, input_without_secrets};
+use foveate_media::{BatchClip, input_without_secrets};
 
 /// The version of the format. It changes when a key of the summary changes its meaning or is
 /// removed.

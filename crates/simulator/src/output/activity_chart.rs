@@ -5,7 +5,7 @@
 //! both, and so on. So the chart shows the whole clip in constant memory, whatever its length. Its bars
 //! fill the width, and its scale is the smallest one for all bars but the first.
 
-use foveate_pictures::palette::{ACTIVE_BRIGHT, Colour};
+use foveate_output::palette::{ACTIVE_BRIGHT, Colour};
 
 use super::canvas::{BACKGROUND, LINE_DOTS, PictureCanvas, PictureLayout, TEXT_DOTS, text_width};
 

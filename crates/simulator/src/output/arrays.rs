@@ -8,7 +8,7 @@ use foveate_camera::{Camera, RegionAction};
 
 use super::sink::{FrameSink, SinkFrame};
 use crate::SimulatorError;
-use foveate_files::npy::{ElementType, NpyWriter};
+use foveate_output::npy::{ElementType, NpyWriter};
 
 /// The writers of all arrays.
 pub(super) struct ArraySink {

@@ -4,7 +4,7 @@
 //!
 //! The coverage of a pixel of the picture follows from the distance of its centre to the shape.
 
-use foveate_pictures::palette::Colour;
+use foveate_output::palette::Colour;
 
 use super::canvas::{self, BACKGROUND, PictureCanvas};
 

@@ -3,8 +3,7 @@
 //! if it is small, above a footer for a legend.
 
 use foveate_camera::Camera;
-use foveate_pictures::lettering;
-use foveate_pictures::palette::Colour;
+use foveate_output::{lettering, palette::Colour};
 
 pub(super) const BACKGROUND: Colour = [16, 16, 16];
 pub(super) const TEXT: Colour = [230, 230, 230];

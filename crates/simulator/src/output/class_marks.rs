@@ -3,7 +3,7 @@
 //! colour of the class surrounds the areas of regions that are keen or always relevant.
 
 use foveate_camera::{Camera, RegionClass};
-use foveate_pictures::palette::{Colour, SERIES};
+use foveate_output::palette::{Colour, SERIES};
 
 use super::canvas::{BACKGROUND, PictureCanvas, PictureLayout};
 use super::legend::{LegendKey, LegendMark};

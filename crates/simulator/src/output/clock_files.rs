@@ -6,8 +6,10 @@
 use std::path::{Path, PathBuf};
 
 use foveate_design::Design;
-use foveate_files::npy::{ElementType, NpyWriter};
-use foveate_files::tables::{Column, ColumnType, TableValue};
+use foveate_output::{
+    npy::{ElementType, NpyWriter},
+    tables::{Column, ColumnType, TableValue},
+};
 use foveate_timed::{ClockEvent, ClockRow, TimedClip};
 use serde::Serialize;
 

@@ -5,7 +5,7 @@ use std::io::Write as _;
 use std::path::Path;
 
 use crate::SimulatorError;
-use foveate_staging::GrowingFile;
+use foveate_tools::GrowingFile;
 
 /// The open file.
 pub(crate) struct CsvFile(GrowingFile);
@@ -36,7 +36,7 @@ impl CsvFile {
 
     /// Appends a line of fields that may need quotes.
     pub(super) fn quoted_line<const N: usize>(&mut self, fields: [&str; N]) {
-        self.0.append(foveate_files::tables::csv_text([fields]).as_bytes());
+        self.0.append(foveate_output::tables::csv_text([fields]).as_bytes());
     }
 
     pub(crate) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {

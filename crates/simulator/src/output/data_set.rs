@@ -11,8 +11,8 @@ use serde::Serialize;
 
 use super::sink::{FrameSink, SinkFrame};
 use crate::SimulatorError;
-use foveate_files::npy::{ElementType, NpyWriter};
-use foveate_footage::{SetFiles, SetForm, SetLabels};
+use foveate_media::{SetFiles, SetForm, SetLabels};
+use foveate_output::npy::{ElementType, NpyWriter};
 
 /// The paths of a data set, relative to the folder of its run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]

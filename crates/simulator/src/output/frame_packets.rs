@@ -5,10 +5,10 @@
 use foveate_camera::RegionAction;
 use foveate_design::Design;
 use foveate_engine::{Engine, FrameOutcome};
-use foveate_frame::ByteFrame;
 use foveate_packets::{
     EndPacket, PacketError, PacketLayout, RegionDecision, RegionFlags, packet_writer,
 };
+use foveate_pixels::ByteFrame;
 
 use super::PacketContent;
 use crate::SimulatorError;

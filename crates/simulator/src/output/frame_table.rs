@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use foveate_camera::Camera;
-use foveate_files::tables::escape_name;
+use foveate_output::tables::escape_name;
 
 use super::csv::CsvFile;
 use super::summary::SentCounts;

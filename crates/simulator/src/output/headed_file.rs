@@ -11,7 +11,7 @@ use flate2::Compression;
 
 use super::deflate_packer::{DeflatePacker, STORED_BLOCK_HEADER_BYTES, stored_block};
 use crate::SimulatorError;
-use foveate_staging::GrowingFile;
+use foveate_tools::GrowingFile;
 
 /// The gzip header: magic number, deflate, no flags, no time, no level, no system.
 const GZIP_HEADER: [u8; 10] = [0x1F, 0x8B, 8, 0, 0, 0, 0, 0, 0, 0xFF];

@@ -7,7 +7,7 @@
 
 use colorous::VIRIDIS;
 use foveate_camera::{Camera, ScoreUnit};
-use foveate_pictures::palette::Colour;
+use foveate_output::palette::Colour;
 
 use super::canvas::{LINE_DOTS, PictureCanvas, PictureLayout, TEXT, TEXT_DOTS, text_width};
 use super::picture_series::PicturePainter;

@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use foveate_design::Design;
-use foveate_pictures::chart::{Chart, ChartData, ChartSeries};
+use foveate_output::chart::{Chart, ChartData, ChartSeries};
 
 use crate::SimulatorError;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The legend below a picture: marks with words, in as many lines as they need.
 
-use foveate_pictures::palette::Colour;
+use foveate_output::palette::Colour;
 
 use super::arrow::Arrow;
 use super::canvas::{LINE_DOTS, PictureCanvas, PictureLayout, TEXT, TEXT_DOTS, text_width};

@@ -7,7 +7,7 @@ use flate2::Compression;
 
 use super::deflate_packer::{DeflatePacker, stored_block};
 use crate::SimulatorError;
-use foveate_staging::GrowingFile;
+use foveate_tools::GrowingFile;
 
 /// The number of bytes of an NPY header in this archive, a multiple of 64.
 const NPY_HEADER_BYTES: usize = 192;
@@ -86,7 +86,7 @@ impl NpzArchive {
     /// Reserves space for the headers of the open entry.
     fn begin(&mut self) {
         let header =
-            stored_block(&foveate_files::npy::npy_header(NPY_HEADER_BYTES, self.open.descr, "0,"));
+            stored_block(&foveate_output::npy::npy_header(NPY_HEADER_BYTES, self.open.descr, "0,"));
         self.open.packed_bytes = length(&header);
         let placeholder = [self.open.local_header(), header].concat();
         self.position += length(&placeholder);
@@ -94,8 +94,11 @@ impl NpzArchive {
     }
 
     fn close(&mut self, count: u64) -> Result<(), SimulatorError> {
-        let header =
-            foveate_files::npy::npy_header(NPY_HEADER_BYTES, self.open.descr, &format!("{count},"));
+        let header = foveate_output::npy::npy_header(
+            NPY_HEADER_BYTES,
+            self.open.descr,
+            &format!("{count},"),
+        );
         let packer = std::mem::replace(&mut self.packer, DeflatePacker::new(LEVEL));
         let (last, crc, bytes) = packer.finish(&header);
         self.file.append(&last);

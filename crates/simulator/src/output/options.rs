@@ -86,7 +86,7 @@ pub enum PacketContent {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RunOptions {
     /// The rendered frames, `rendered`. Frames of 8 bits per pixel are written unchanged. Fewer
-    /// bits are converted to 8 and more bits to 16 by [`foveate_frame::convert_depth`].
+    /// bits are converted to 8 and more bits to 16 by [`foveate_pixels::convert_depth`].
     pub rendered: Option<PictureFormat>,
     /// The original frames with what is sent of them, `overlay`.
     pub overlay: Option<PictureFormat>,

@@ -10,8 +10,8 @@
 
 use foveate_camera::{Camera, Displacement, RegionAction};
 use foveate_engine::FrameOutcome;
-use foveate_frame::{ByteFrame, convert_depth};
-use foveate_pictures::palette::{ACTIVE, ACTIVE_BRIGHT, CHANGED, Colour, RELEVANT, SERIES};
+use foveate_output::palette::{ACTIVE, ACTIVE_BRIGHT, CHANGED, Colour, RELEVANT, SERIES};
+use foveate_pixels::{ByteFrame, convert_depth};
 
 use super::OverlayStyle;
 use super::activity_chart::ActivityChart;
@@ -288,7 +288,7 @@ fn tinted(grey: u32, tint: Option<Colour>) -> Colour {
 
 #[cfg(test)]
 mod tests {
-    use foveate_pictures::palette::vision::{VISIONS, distance};
+    use foveate_output::palette::vision::{VISIONS, distance};
 
     use super::*;
 

@@ -6,7 +6,7 @@ use std::path::Path;
 use foveate_camera::Camera;
 use foveate_design::Design;
 use foveate_packets::PacketLayout;
-use foveate_staging::GrowingFile;
+use foveate_tools::GrowingFile;
 
 use super::PacketContent;
 use super::frame_packets::{packet_layout, wrapped_number, write_packets};

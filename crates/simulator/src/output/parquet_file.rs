@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use foveate_files::tables::{Column, ParquetWriter, TableValue};
+use foveate_output::tables::{Column, ParquetWriter, TableValue};
 
 use super::cannot_write;
 use crate::SimulatorError;

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use foveate_engine::{EventColumn, EventColumnType, EventFrame, EventTable, EventValue};
-use foveate_files::tables::{Column, ColumnType, TableValue};
+use foveate_output::tables::{Column, ColumnType, TableValue};
 
 use super::parquet_file::ParquetFile;
 use super::row_writer::RowWriter;

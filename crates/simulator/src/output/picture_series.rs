@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use foveate_camera::Camera;
-use foveate_toolchain::Interrupt;
+use foveate_tools::Interrupt;
 
 use super::PictureFormat;
 use super::canvas::{PictureCanvas, PictureLayout};

@@ -10,7 +10,7 @@
 //! everywhere.
 
 use foveate_camera::{Camera, Decimal};
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 
 use super::PixelEventOptions;
 use crate::SimulatorError;

@@ -7,14 +7,14 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use foveate_camera::Camera;
-use foveate_eventfiles::{EventEncoder, EventFileError, EventFormat};
+use foveate_media::{EventEncoder, EventFileError, EventFormat};
 
 use super::csv::CsvFile;
 use super::npz::NpzArchive;
 use super::sink::SinkFrame;
 use super::{PixelCamera, PixelEvent, PixelEventOptions, cannot_write};
 use crate::SimulatorError;
-use foveate_staging::GrowingFile;
+use foveate_tools::GrowingFile;
 
 /// The type of the records of events in NumPy's notation.
 const EVENT_TYPE: &str = "[('x', '<i2'), ('y', '<i2'), ('t', '<i8'), ('p', '|b1')]";
@@ -134,7 +134,7 @@ impl EventStream {
 
     fn push(&mut self, event: PixelEvent, time_us: u64) -> Result<(), EventFileError> {
         let side = |side| u16::try_from(side).expect("a stream has frames that fit");
-        let event = foveate_eventfiles::PixelEvent {
+        let event = foveate_media::PixelEvent {
             x: side(event.x),
             y: side(event.y),
             time_us,

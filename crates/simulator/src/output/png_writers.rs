@@ -12,7 +12,7 @@ use std::thread::{Builder, JoinHandle};
 use super::raw_image::RawImage;
 use super::{cannot_write, png};
 use crate::SimulatorError;
-use foveate_staging::is_full;
+use foveate_tools::is_full;
 
 /// The largest number of threads. More threads do not help, because other work is then the limit.
 const MAX_THREADS: usize = 8;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A picture in memory, before it is written as a PNG or a video frame.
 
-use foveate_frame::{FramePixels, convert_depth, display_depth};
+use foveate_pixels::{FramePixels, convert_depth, display_depth};
 
 use super::canvas::PictureCanvas;
 use super::sink::SinkFrame;

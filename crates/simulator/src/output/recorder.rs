@@ -4,10 +4,11 @@
 
 use std::path::{Path, PathBuf};
 
-use foveate_design::{Camera, Design};
+use foveate_camera::Camera;
+use foveate_design::Design;
 use foveate_engine::{Engine, FrameOutcome};
-use foveate_frame::FramePixels;
-use foveate_staging::SpaceReserve;
+use foveate_pixels::FramePixels;
+use foveate_tools::SpaceReserve;
 use rayon::prelude::*;
 
 use super::arrays::ArraySink;
@@ -24,8 +25,8 @@ use super::summary::RunTotals;
 use super::summary::SentCounts;
 use super::{RunOptions, RunSummary, event_files};
 use crate::SimulatorError;
-use foveate_footage::{LumaRange, SetForm, SourceFrame};
-use foveate_toolchain::Interrupt;
+use foveate_media::{LumaRange, SetForm, SourceFrame};
+use foveate_tools::Interrupt;
 
 /// The problem in the summary of a run that the user stopped.
 pub(crate) const INTERRUPTED: &str = "interrupted";

@@ -5,10 +5,10 @@ use std::path::PathBuf;
 
 use foveate_camera::Camera;
 use foveate_engine::{Engine, FrameOutcome};
-use foveate_frame::FramePixels;
+use foveate_pixels::FramePixels;
 
 use crate::SimulatorError;
-use foveate_footage::SourceFrame;
+use foveate_media::SourceFrame;
 
 /// One frame and its outcome.
 pub(super) struct SinkFrame<'a> {

@@ -3,7 +3,8 @@
 
 use std::path::Path;
 
-use foveate_design::{Camera, Design, DesignConfig, RegionAction};
+use foveate_camera::{Camera, RegionAction};
+use foveate_design::{Design, DesignConfig};
 use serde::Serialize;
 
 use super::bandwidth::{BandwidthComparison, TrafficSums};

@@ -7,9 +7,8 @@
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use foveate_playback::PlaybackError;
-use foveate_staging::has_room;
-use foveate_toolchain::{Interrupt, Invocation, ProgramWriter, Tool, ToolError, Toolchain};
+use foveate_media::PlaybackError;
+use foveate_tools::{Interrupt, Invocation, ProgramWriter, Tool, ToolError, Toolchain, has_room};
 
 use super::raw_image::{RawImage, SampleFormat};
 use crate::SimulatorError;

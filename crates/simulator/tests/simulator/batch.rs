@@ -7,9 +7,10 @@ use std::path::{Path, PathBuf};
 
 use crate::support::{grey, names};
 use foveate_design::DesignConfig;
-use foveate_footage::{BatchClip, ClipPlan, FootageError, ImageRelation, InputOptions, plan};
-use foveate_playback::RunProgress;
-use foveate_playback::testing::RecordingHooks;
+use foveate_media::{
+    BatchClip, ClipPlan, FootageError, ImageRelation, InputOptions, RunProgress, plan,
+    testing::RecordingHooks,
+};
 use foveate_simulator::{RunOptions, SimulatorError, run_batch};
 
 /// Writes a stream of `frames` frames of 16x16 pixels.

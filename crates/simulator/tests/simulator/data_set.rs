@@ -9,9 +9,7 @@ use crate::support::data_sets::{
     LABELS, images, made, packed, pixels, rendered, set, unpacked, unpacked_any,
 };
 use crate::support::{NpyArray, grey, names};
-use foveate_footage::InputOptions;
-use foveate_playback::SilentHooks;
-use foveate_playback::testing::RecordingHooks;
+use foveate_media::{InputOptions, SilentHooks, testing::RecordingHooks};
 
 #[test]
 fn idx_becomes_idx_byte_by_byte() {
@@ -164,7 +162,7 @@ fn labels_have_a_name_of_their_own() {
 /// Tests the real MNIST in the folder that the environment variable FOVEATE_DATA names.
 #[test]
 fn mnist_becomes_mnist() {
-    let Some(data) = foveate_toolchain::testing::data_folder() else { return };
+    let Some(data) = foveate_tools::testing::data_folder() else { return };
     let dir = tempfile::tempdir().unwrap();
     let out = dir.path().join("out");
     let name = "t10k-images-idx3-ubyte.gz";

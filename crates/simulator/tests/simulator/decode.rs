@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use foveate_design::DesignConfig;
-use foveate_playback::SilentHooks;
+use foveate_media::SilentHooks;
 use foveate_simulator::{
     DecodedRecording, PacketContent, PacketRecording, PictureFormat, PixelEventOptions, RunOptions,
     SimulatorError,

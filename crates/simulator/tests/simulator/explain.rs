@@ -2,12 +2,16 @@
 //! Explanations agree with the model, are consistent, and fit a terminal.
 
 use crate::support::{design, frames, grey};
-use foveate_design::{DesignConfig, FeatureKind};
-use foveate_footage::{InputOptions, open};
-use foveate_frame::Frame;
-use foveate_model::explanation::{DifferenceSum, SpatialExplanation};
-use foveate_model::feature::surface::DisplacementSums;
-use foveate_model::{FunctionalCamera, region_pixels};
+use foveate_camera::FeatureKind;
+use foveate_design::DesignConfig;
+use foveate_media::{InputOptions, open};
+use foveate_model::{
+    FunctionalCamera,
+    explanation::{DifferenceSum, SpatialExplanation},
+    feature::surface::DisplacementSums,
+    region_pixels,
+};
+use foveate_pixels::Frame;
 use foveate_simulator::{RegionExplanation, SimulatorError, explain_region};
 
 const MANY: &str = r#"spatial=[{feature="edge",level=40},{feature="corner",level=10},{feature="mad",min_score=4,mean_fraction_bits=1},{feature="variance",min_score=90},{feature="surface"},{feature="segment",mean_fraction_bits=1},{feature="flow",radius=2}]"#;

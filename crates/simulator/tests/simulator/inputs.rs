@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use crate::support::{grey, run};
 use foveate_camera::CameraConfig;
 use foveate_design::DesignConfig;
-use foveate_footage::{FootageError, InputOptions, open};
+use foveate_media::{FootageError, InputOptions, open};
 use foveate_simulator::RunOptions;
 
 fn level(frame: usize) -> u8 {

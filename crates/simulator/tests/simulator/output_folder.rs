@@ -6,12 +6,13 @@ use std::path::Path;
 
 use crate::support::{NpyArray, grey, names, run};
 use foveate_design::DesignConfig;
-use foveate_footage::{FootageError, FrameSource, InputOptions, SourceFrame, open};
-use foveate_frame::Frame;
-use foveate_playback::testing::RecordingHooks;
-use foveate_playback::{InputError, PlaybackError, RunHooks, RunProgress, SilentHooks};
+use foveate_media::{
+    FootageError, FrameSource, InputError, InputOptions, PlaybackError, RunHooks, RunProgress,
+    SilentHooks, SourceFrame, open, testing::RecordingHooks,
+};
+use foveate_pixels::Frame;
 use foveate_simulator::{RunOptions, Simulation, SimulatorError};
-use foveate_staging::StagingError;
+use foveate_tools::StagingError;
 
 const SMALL: [&str; 2] = ["frame.width=16", "frame.height=16"];
 

@@ -6,9 +6,8 @@ use std::fs;
 
 use crate::packets::FLOW_DESIGN;
 use crate::support::{NpyArray, STREET, names, outcomes, run, street};
-use foveate_frame::convert_depth;
 use foveate_model::FunctionalOutcome;
-use foveate_scenes::Scene;
+use foveate_pixels::{Scene, convert_depth};
 use foveate_simulator::{EventTableOptions, PictureFormat, PixelEventOptions, RunOptions};
 
 /// Returns the low bytes of every value, and checks that the others are zero.

@@ -3,10 +3,11 @@
 
 use std::fs;
 
-use foveate_design::{Design, Payload, RegionAction};
+use foveate_camera::{Payload, RegionAction};
+use foveate_design::Design;
 use foveate_engine::Engine;
-use foveate_frame::ByteFrame;
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
+use foveate_pixels::ByteFrame;
 use foveate_simulator::{
     EventTableOptions, FrameStart, PacketContent, PictureFormat, RunOptions, SentValues,
     packet_bytes, packet_layout, write_kept_packets, write_packets,

@@ -4,8 +4,8 @@
 use std::fs;
 
 use crate::support::{NpyArray, STREET, design, outcomes, street};
-use foveate_design::RegionAction;
-use foveate_footage::{InputOptions, open};
+use foveate_camera::RegionAction;
+use foveate_media::{InputOptions, open};
 use foveate_simulator::{EventTableOptions, RunOptions, explain_region};
 
 /// Returns the configuration of the ragged street with edges alone, so that many regions are

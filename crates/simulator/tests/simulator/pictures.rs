@@ -9,10 +9,9 @@ use std::process::Command;
 
 use crate::support::{STREET, frames, names, outcomes, street};
 use foveate_camera::RegionAction;
-use foveate_frame::convert_depth;
+use foveate_pixels::convert_depth;
 use foveate_simulator::{OverlayStyle, PictureFormat, RunOptions};
-use foveate_toolchain::testing::require_tools;
-use foveate_toolchain::{Tool, Toolchain};
+use foveate_tools::{Tool, Toolchain, testing::require_tools};
 use image::RgbImage;
 
 const NOTHING: fn() -> RunOptions = || RunOptions { rendered: None, ..RunOptions::default() };

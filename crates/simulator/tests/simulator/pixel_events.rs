@@ -9,10 +9,9 @@ use std::path::Path;
 
 use crate::support::{NpyArray, STREET, design, frames, names, street};
 use flate2::read::DeflateDecoder;
-use foveate_design::Decimal;
-use foveate_eventfiles::{EventFormat, EventReader};
-use foveate_footage::FrameRate;
-use foveate_frame::Frame;
+use foveate_camera::Decimal;
+use foveate_media::{EventFormat, EventReader, FrameRate};
+use foveate_pixels::Frame;
 use foveate_simulator::{
     PIXEL_EVENT_BYTES, PixelCamera, PixelEventOptions, RunOptions, RunSummary, SimulatorError,
 };

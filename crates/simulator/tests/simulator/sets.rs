@@ -11,11 +11,11 @@ use flate2::Compression;
 use flate2::write::GzEncoder;
 use foveate_camera::CameraConfig;
 use foveate_design::DesignConfig;
-use foveate_footage::{
-    FootageError, FrameSelection, ImageRelation, InputOptions, SourceFrame, SourceKind, open,
+use foveate_media::{
+    FootageError, FrameSelection, ImageRelation, InputOptions, SilentHooks, SourceFrame,
+    SourceKind, open,
 };
-use foveate_frame::luma;
-use foveate_playback::SilentHooks;
+use foveate_pixels::luma;
 use foveate_simulator::{RunOptions, Simulation};
 
 fn read(path: &Path, options: &InputOptions) -> Result<Vec<SourceFrame>, FootageError> {
@@ -182,7 +182,7 @@ fn every_image_of_a_set_is_a_first_frame() {
 /// Tests the real sets in the folder that the environment variable FOVEATE_DATA names.
 #[test]
 fn real_sets_are_read() {
-    let Some(data) = foveate_toolchain::testing::data_folder() else { return };
+    let Some(data) = foveate_tools::testing::data_folder() else { return };
     let seen =
         read(&data.join("mnist/t10k-images-idx3-ubyte.gz"), &InputOptions::default()).unwrap();
     assert_eq!((seen.len(), seen[0].label.as_deref()), (10_000, Some("7")));

@@ -6,7 +6,7 @@ use std::fs;
 
 use crate::support::clips::{all, clip, ffmpeg, frames, opened, tools};
 use crate::support::run;
-use foveate_footage::{FootageError, FrameSelection, InputOptions};
+use foveate_media::{FootageError, FrameSelection, InputOptions};
 use foveate_simulator::RunOptions;
 
 #[test]

@@ -7,9 +7,8 @@ use std::path::Path;
 
 use fastrand::Rng;
 use foveate_design::DesignConfig;
+use foveate_media::{RunHooks, SilentHooks, testing::RecordingHooks};
 use foveate_packets::{PacketLayout, StreamLoss, packet_writer};
-use foveate_playback::testing::RecordingHooks;
-use foveate_playback::{RunHooks, SilentHooks};
 use foveate_simulator::{
     DecodedRecording, MAX_CLAIMED_PIXELS, PacketContent, PacketRecording, PacketStream, RunOptions,
     ShownFrame, SimulatorError, StreamItem,

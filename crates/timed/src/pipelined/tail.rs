@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use foveate_camera::Periphery;
 use foveate_design::PipelinedTiming;
-use foveate_frame::FramePixels;
+use foveate_pixels::FramePixels;
 
 use crate::payload::KeptPixels;
 use crate::timed_core::CoreContext;

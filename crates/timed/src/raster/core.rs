@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use foveate_design::RasterTiming;
 use foveate_engine::Engine;
-use foveate_frame::FramePixels;
+use foveate_pixels::FramePixels;
 
 use super::readout::{Readout, ReadoutContext, SendingRegion};
 use super::staleness::RowStaleness;

@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use foveate_design::{SerialDesign, SerialTiming};
-use foveate_frame::FramePixels;
+use foveate_pixels::FramePixels;
 
 use super::intake::IntakeClocks;
 use super::slot::{FrameOutput, SlotSchedule};

@@ -2,10 +2,12 @@
 //! Real clips, whose activity is not random.
 
 use foveate_design::{Design, DesignConfig};
-use foveate_footage::{InputOptions, open};
-use foveate_frame::Frame;
-use foveate_toolchain::Tool;
-use foveate_toolchain::testing::{data_folder, require_tools};
+use foveate_media::{InputOptions, open};
+use foveate_pixels::Frame;
+use foveate_tools::{
+    Tool,
+    testing::{data_folder, require_tools},
+};
 
 use crate::comparison::{check, is_whole};
 use crate::traffic::Traffic;

@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use foveate_design::Design;
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 use foveate_timed::CoreTiming;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;

@@ -5,8 +5,8 @@
 use std::ops::Range;
 
 use foveate_design::Design;
-use foveate_frame::Frame;
 use foveate_model::{CoreInput, ThresholdInputs};
+use foveate_pixels::Frame;
 use foveate_timed::BeatOffer;
 
 use crate::event::PortEvent;

@@ -2,8 +2,8 @@
 //! The beats of a frame, and the pixels that a cut leaves of it.
 
 use foveate_design::{Design, Hardware, PixelFeed, SerialDesign};
-use foveate_frame::Frame;
 use foveate_model::{pad, region_stream};
+use foveate_pixels::Frame;
 
 /// Returns the beats of a frame.
 pub(crate) fn frame_beats(design: &Design, frame: &Frame) -> Vec<Vec<u16>> {

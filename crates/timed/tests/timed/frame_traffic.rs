@@ -2,7 +2,7 @@
 //! The latencies and waiting regions of frames, against a count at every clock of the run.
 
 use foveate_design::Design;
-use foveate_frame::FramePixels;
+use foveate_pixels::FramePixels;
 use foveate_timed::{
     BeatOffer, FrameDelivery, FrameTraffic, RateSink, SentKind, TimedModel, TrafficMeter,
     Transaction,

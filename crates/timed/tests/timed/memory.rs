@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The memory of the timed model.
 
-use foveate_frame::FramePixels;
+use foveate_pixels::FramePixels;
 use foveate_timed::{FrameDelivery, RateSink, TimedModel};
 
 use crate::page_examples::{design, random_frames};

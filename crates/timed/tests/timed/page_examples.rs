@@ -2,7 +2,7 @@
 //! The examples and numbers of the pages on timing.
 
 use foveate_design::{Design, DesignConfig};
-use foveate_frame::FramePixels;
+use foveate_pixels::FramePixels;
 use foveate_timed::{FrameDelivery, ReadySink, SentKind, TimedModel, Transaction};
 
 use crate::traffic::Random;

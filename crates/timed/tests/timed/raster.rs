@@ -3,9 +3,10 @@
 
 use std::collections::BTreeSet;
 
-use foveate_design::{Design, DesignConfig, RasterTiming, RegionAction};
+use foveate_camera::RegionAction;
+use foveate_design::{Design, DesignConfig, RasterTiming};
 use foveate_engine::Engine;
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 use foveate_timed::CoreTiming;
 use proptest::prelude::*;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Deliveries that are refused.
 
-use foveate_frame::FramePixels;
+use foveate_pixels::FramePixels;
 use foveate_timed::{BeatOffer, FrameDelivery, ReadySink, TimedError, TimedModel, Transaction};
 
 use crate::page_examples::{design, first_region, random_frames};

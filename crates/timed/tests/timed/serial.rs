@@ -3,7 +3,8 @@
 
 use std::collections::BTreeSet;
 
-use foveate_design::{Design, DesignConfig, Neighborhood, Pipelining, PixelFeed, SerialTiming};
+use foveate_camera::Neighborhood;
+use foveate_design::{Design, DesignConfig, Pipelining, PixelFeed, SerialTiming};
 use foveate_timed::CoreTiming;
 use proptest::prelude::*;
 

@@ -3,7 +3,7 @@
 
 use foveate_camera::RegionAction;
 use foveate_design::Design;
-use foveate_frame::FramePixels;
+use foveate_pixels::FramePixels;
 use foveate_timed::{
     CoreTiming, DecisionRun, FrameDelivery, ScoreRun, SentKind, StallList, TimedError, TimedModel,
     Transaction, WordRun,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The part of the card about area and speed: lanes, memory, frames per second and folds.
 
-use foveate_design::{Decimal, Design, LaneMemory, MemoryChoice, SerialDesign, SlotArea};
+use foveate_camera::Decimal;
+use foveate_design::{Design, LaneMemory, MemoryChoice, SerialDesign, SlotArea};
 use serde::Serialize;
 
 use crate::args::{ClockFrequency, FramesPerSecond};

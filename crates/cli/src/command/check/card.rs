@@ -2,7 +2,7 @@
 //! The card: all values that follow from a configuration, in the form of its JSON.
 
 use foveate_design::{Design, DesignConfig, DesignTiming, Hardware, Port, PortDirection};
-use foveate_link::ClipLoad;
+use foveate_explore::link::ClipLoad;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 
@@ -143,7 +143,7 @@ impl DesignCard {
 }
 
 impl FeatureRow {
-    fn from_feature(feature: &foveate_design::SpatialFeature) -> Self {
+    fn from_feature(feature: &foveate_camera::SpatialFeature) -> Self {
         Self {
             feature: feature.kind().name(),
             level: feature.level(),

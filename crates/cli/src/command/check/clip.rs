@@ -5,11 +5,10 @@
 use std::path::Path;
 
 use foveate_design::Design;
-use foveate_footage::ImageRelation;
-use foveate_link::{
+use foveate_explore::link::{
     ArrayLink, ArrayLoad, ClipLoad, LinkRate, UnbufferedFigures, milliseconds_text,
 };
-use foveate_playback::{ClipReading, RunClips, RunMonitor};
+use foveate_media::{ClipReading, ImageRelation, RunClips, RunMonitor};
 
 use crate::args::{CheckArgs, ClockFrequency, DesignArgs, warn_about_inputs};
 use crate::error::CliError;

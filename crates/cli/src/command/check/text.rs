@@ -3,9 +3,8 @@
 
 use std::fmt::Write;
 
-use foveate_design::{
-    Design, Hardware, Neighborhood, Periphery, RasterDesign, RasterMemory, RegionClass,
-};
+use foveate_camera::{Neighborhood, Periphery, RegionClass};
+use foveate_design::{Design, Hardware, RasterDesign, RasterMemory};
 
 use super::array::{LaneArray, LaneMemoryFigures};
 use super::card::{DesignCard, FeatureRow, PortRow};

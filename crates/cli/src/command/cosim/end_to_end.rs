@@ -7,10 +7,9 @@ use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
 use foveate_design::DesignConfig;
-use foveate_footage::InputOptions;
-use foveate_playback::ClipPlayer;
+use foveate_media::{ClipPlayer, InputOptions};
 use foveate_simulator::{PacketRecording, RunOptions, Simulation};
-use foveate_staging::{FolderKind, StagedFolder};
+use foveate_tools::{FolderKind, StagedFolder};
 use serde::Serialize;
 
 use crate::args::CosimArgs;

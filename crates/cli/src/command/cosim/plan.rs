@@ -7,7 +7,7 @@ use std::path::Path;
 use foveate_cosim::{BusJob, CosimJob, CosimLevel, Simulator, Stimulus, core_prefixes};
 use foveate_design::Design;
 use foveate_emit::{Prefix, SourceFile, Top};
-use foveate_toolchain::check_source_name;
+use foveate_tools::check_source_name;
 
 use crate::args::{self, CosimArgs, SimulatorChoice};
 use crate::error::CliError;
@@ -189,7 +189,7 @@ fn read_rtl(folder: &Path) -> Result<Vec<SourceFile>, CliError> {
         if let (Some(name), true) = (name, path.extension().is_some_and(|e| e == "v")) {
             check_source_name(&name)
                 .map_err(|error| CliError::Usage(format!("{error}; rename the file of --rtl")))?;
-            let contents = foveate_reading::read_text(&path, VERILOG_LIMIT)
+            let contents = foveate_tools::read_text(&path, VERILOG_LIMIT)
                 .map_err(CliError::io("read", &path))?;
             files.push(SourceFile { path: format!("rtl/{name}"), contents });
         }

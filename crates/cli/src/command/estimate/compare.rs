@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `foveate estimate --compare`: the designs of the table.
 
-use foveate_design::{
-    ConfigError, DenoiseFilter, Design, DesignConfig, FeatureKind, Organization, PixelFeed,
-    SpatialConfig,
-};
+use foveate_camera::{ConfigError, DenoiseFilter, FeatureKind, SpatialConfig};
+use foveate_design::{Design, DesignConfig, Organization, PixelFeed};
 use foveate_estimate::{DesignComparison, FoldCost, SkippedDesign, cheapest_fold};
 
 use super::synthesis::SynthesisTools;

@@ -4,15 +4,15 @@
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-use foveate_energy::{
+use foveate_cosim::{
     EnergyJob, EnergyReport, measure_energy, render_energy_markdown, render_energy_text,
 };
 use foveate_estimate::{
     SiliconJob, SiliconReport, gate_netlist, map_to_silicon, render_silicon_markdown,
     render_silicon_text,
 };
-use foveate_footage::InputOptions;
-use foveate_staging::{check_file, write_file};
+use foveate_media::InputOptions;
+use foveate_tools::{check_file, write_file};
 use serde::Serialize;
 
 use super::synthesis::SynthesisTools;

@@ -4,7 +4,7 @@
 use foveate_design::Design;
 use foveate_emit::Top;
 use foveate_estimate::{AreaReport, EstimateJob, estimate};
-use foveate_toolchain::{Cache, Toolchain};
+use foveate_tools::{Cache, Toolchain};
 
 use crate::error::CliError;
 

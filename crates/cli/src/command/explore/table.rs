@@ -7,7 +7,7 @@ use std::path::Path;
 
 use foveate_estimate::ramb36;
 use foveate_explore::{DesignRow, Exploration, ProcessEnergy};
-use foveate_toolchain::escaping::shell_word;
+use foveate_tools::escaping::shell_word;
 
 /// A column: its name, and the function that writes its cells.
 type PointColumn = (&'static str, fn(&DesignRow) -> String);

@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use foveate_explore::{ExploreError, ExploreRequest, measure_unit, plan_units};
-use foveate_playback::PlaybackError;
+use foveate_media::PlaybackError;
 
 use crate::args::ExploreArgs;
 use crate::error::CliError;

@@ -3,8 +3,7 @@
 
 use std::path::Path;
 
-use foveate_toolchain::Tool;
-use foveate_toolchain::testing::require_tools;
+use foveate_tools::{Tool, testing::require_tools};
 use serde_json::Value;
 
 /// The library of Debian's package `qflow-tech-osu018`.

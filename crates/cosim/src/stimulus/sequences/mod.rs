@@ -13,7 +13,8 @@ use super::port_zones::ClassChoice;
 use super::sequence_end::SequenceEnd;
 use super::stimulus_pattern::{StimulusPattern, Texture};
 use super::threshold_aimer::ThresholdAim;
-use foveate_design::{Design, FeatureKind, Hardware};
+use foveate_camera::FeatureKind;
+use foveate_design::{Design, Hardware};
 
 const CHECKERBOARD: StimulusPattern = StimulusPattern::Texture(Texture::Checkers(1));
 

@@ -7,8 +7,10 @@ use crate::common::in_parallel;
 use faults::{BusFault, FAULTS, ZONED};
 use foveate_cosim::{BusJob, CosimReport};
 use foveate_design::{Design, DesignConfig};
-use foveate_toolchain::testing::{require_tools, sample, takes_whole_lists};
-use foveate_toolchain::{Cache, Tool, Toolchain};
+use foveate_tools::{
+    Cache, Tool, Toolchain,
+    testing::{require_tools, sample, takes_whole_lists},
+};
 use std::collections::BTreeSet;
 use std::path::Path;
 

@@ -4,10 +4,10 @@
 pub(crate) mod serial;
 pub(crate) mod vectors;
 
+use foveate_camera::{FeatureKind, SpatialConfig};
 use foveate_cosim::{CosimError, CosimJob, CosimLevel, CosimReport, Simulator, Stimulus};
-use foveate_design::{Design, DesignConfig, FeatureKind, SpatialConfig};
-use foveate_toolchain::testing::require_tools;
-use foveate_toolchain::{Cache, Toolchain};
+use foveate_design::{Design, DesignConfig};
+use foveate_tools::{Cache, Toolchain, testing::require_tools};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};

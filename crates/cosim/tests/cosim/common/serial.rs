@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Configurations of serial designs.
 
-use foveate_design::{CameraConfig, DesignConfig, Organization, SpatialConfig};
+use foveate_camera::{CameraConfig, SpatialConfig};
+use foveate_design::{DesignConfig, Organization};
 
 /// Returns a serial configuration with these features; all other keys are the paper's.
 pub(crate) fn serial_config(features: &[SpatialConfig]) -> DesignConfig {

@@ -4,17 +4,20 @@
 
 use crate::bus::axi_design;
 use crate::common::in_parallel;
-use foveate_design::{Design, RegionAction, RegionClass};
+use foveate_camera::{RegionAction, RegionClass};
+use foveate_design::Design;
 use foveate_emit::{AXI_TOP, FieldKind, axi_modules, axi_registers, axi_software};
-use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, region_pixels};
 use foveate_packets::{
     EndPacket, Packet, PacketLayout, PacketSplitter, RegionDecision, RegionFlags, StreamItem,
     packet_writer,
 };
-use foveate_toolchain::testing::{require_tools, sampling_step};
-use foveate_toolchain::verilator::{self, LintMode, VerilatorJob};
-use foveate_toolchain::{Cache, Source, Tool, Toolchain};
+use foveate_pixels::Frame;
+use foveate_tools::{
+    Cache, Source, Tool, Toolchain,
+    testing::{require_tools, sampling_step},
+    verilator::{self, LintMode, VerilatorJob},
+};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};

@@ -12,7 +12,7 @@ use crate::common::{
 };
 use foveate_cosim::{CosimJob, CosimLevel, CosimReport, Simulator};
 use foveate_design::DesignConfig;
-use foveate_toolchain::testing::{require_tools, sampling_step};
+use foveate_tools::testing::{require_tools, sampling_step};
 use planted_fault::{FaultDesign, PlantedFault};
 use std::path::Path;
 use std::process::Command;

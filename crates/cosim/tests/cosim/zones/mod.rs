@@ -11,7 +11,7 @@ use crate::common::{
 };
 use foveate_cosim::{CosimLevel, Simulator};
 use foveate_design::DesignConfig;
-use foveate_toolchain::testing::sample;
+use foveate_tools::testing::sample;
 
 /// A design with zones.
 pub(super) struct ZonedDesign {

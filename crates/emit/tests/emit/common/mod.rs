@@ -2,7 +2,7 @@
 //! Designs to emit, in which every value of the configuration occurs, mostly with every other.
 
 use foveate_design::{Design, DesignConfig};
-use foveate_toolchain::testing::cover;
+use foveate_tools::testing::cover;
 use std::process::{Command, Stdio};
 
 /// Returns the designs of a matrix that cover it.

@@ -2,7 +2,7 @@
 //! Modules with parameters that differ from their defaults, from `limits.txt`.
 
 use foveate_emit::{BOARD_LEAVES, LEAVES, Leaf};
-use foveate_toolchain::Source;
+use foveate_tools::Source;
 use std::collections::BTreeSet;
 
 /// A module with parameters that differ from their defaults.

@@ -2,9 +2,10 @@
 //! Tests of whole clips against the functional camera: scores, decisions and the rendered frame.
 //! The designs are a matrix in which every value of every choice meets every other.
 
-use foveate_design::{Design, FrameStoreKind, Payload, RegionAction};
-use foveate_frame::Frame;
+use foveate_camera::{Payload, RegionAction};
+use foveate_design::{Design, FrameStoreKind};
 use foveate_model::{FunctionalCamera, FunctionalOutcome, RasterOutput};
+use foveate_pixels::Frame;
 
 use super::driver::{RasterDriver, RasterStimulus, RasterTrace, RasterTraffic};
 use super::raster_parameters::{PlantedMisreading, RasterParameters};

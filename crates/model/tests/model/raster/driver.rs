@@ -2,8 +2,8 @@
 //! A driver that feeds frames to a core, word by word, in front of a sink that is not always ready.
 //! It records inputs and outputs.
 
-use foveate_frame::Frame;
 use foveate_model::{ClassMapInputs, CoreInput, RasterOutput, RasterRcm};
+use foveate_pixels::Frame;
 
 use super::memory::{ExternalMemory, MemoryFaultRates};
 use super::raster_parameters::RasterParameters;

@@ -3,7 +3,7 @@
 //! are not taken, sinks that stall, memories that fail, thresholds that change between frames, and
 //! resets at any edge.
 
-use foveate_frame::Frame;
+use foveate_pixels::Frame;
 use proptest::prelude::*;
 
 use super::driver::{RasterDriver, RasterStimulus, RasterTraffic, SinkPattern};

@@ -5,8 +5,8 @@
 
 use std::collections::BTreeMap;
 
-use foveate_frame::Frame;
 use foveate_model::RasterOutput;
+use foveate_pixels::Frame;
 
 use super::driver::RasterTrace;
 use super::raster_parameters::RasterParameters;

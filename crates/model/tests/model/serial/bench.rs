@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A bench that applies frames to an array and compares every port after every edge.
 
-use foveate_frame::Frame;
 use foveate_model::{ClassMapInputs, CoreInput, SerialRcm, pad, region_stream};
+use foveate_pixels::Frame;
 
 use super::expected_outputs::{ExpectedTimeline, MeaningfulOutputs, RegionResults, region_results};
 use super::serial_parameters::SerialParameters;

@@ -2,12 +2,13 @@
 //! Tests of whole clips against the functional camera: scores, decisions and the rendered frame.
 //! The designs are a matrix in which every value of every choice meets every other.
 
-use foveate_design::{Design, Displacement, RegionAction};
-use foveate_frame::Frame;
+use foveate_camera::{Displacement, RegionAction};
+use foveate_design::Design;
 use foveate_model::{
     CoreInput, FunctionalCamera, FunctionalOutcome, RegionScorer, SerialRcm, ThresholdInputs,
     region_border, region_stream,
 };
+use foveate_pixels::Frame;
 
 use super::bench::port_pixels;
 use super::serial_parameters::SerialParameters;

@@ -3,8 +3,8 @@
 //! that it makes.
 
 use foveate_design::{Design, Hardware, PixelFeed};
-use foveate_frame::Frame;
 use foveate_model::{CoreInput, PipelinedRcm, RasterRcm, SerialRcm, ThresholdInputs};
+use foveate_pixels::Frame;
 
 /// The decision of an array for a region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -6,14 +6,14 @@
 
 use std::path::Path;
 
-use foveate_frame::FramePixels;
+use foveate_pixels::FramePixels;
 
 use super::super::headed_file::HeadedFile;
 use super::super::raw_image::to_byte;
 use super::super::sink::{FrameSink, SinkFrame};
 use crate::SimulatorError;
-use foveate_footage::{FootageError, IdxFile};
-use foveate_frame::convert_depth;
+use foveate_media::{FootageError, IdxFile};
+use foveate_pixels::convert_depth;
 
 const BITS: u32 = 8;
 

@@ -10,10 +10,9 @@ use flate2::Compression;
 use flate2::read::GzDecoder;
 use flate2::write::GzEncoder;
 use foveate_design::DesignConfig;
-use foveate_footage::{ImageRelation, InputOptions, open};
-use foveate_frame::{Frame, convert_depth};
+use foveate_media::{ImageRelation, InputOptions, RunHooks, open};
 use foveate_model::FunctionalCamera;
-use foveate_playback::RunHooks;
+use foveate_pixels::{Frame, convert_depth};
 use foveate_simulator::{RunOptions, RunSummary, Simulation, SimulatorError};
 
 pub(crate) fn made<P: AsRef<Path>>(

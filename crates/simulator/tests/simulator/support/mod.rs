@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Helpers that the tests of this crate share: runs, generated images, and a reader of NPY files.
 
-#[path = "../../../../footage/tests/footage/clips.rs"]
+#[path = "../../../../media/tests/footage/clips.rs"]
 pub(crate) mod clips;
 pub(crate) mod data_sets;
 
@@ -9,11 +9,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use foveate_design::{Design, DesignConfig};
-use foveate_footage::{InputOptions, open};
-use foveate_frame::Frame;
+use foveate_media::{InputOptions, SilentHooks, open};
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
-use foveate_playback::SilentHooks;
-use foveate_scenes::{Scene, SceneParameters};
+use foveate_pixels::{Frame, Scene, SceneParameters};
 use foveate_simulator::{RunOptions, RunSummary, Simulation, SimulatorError};
 
 /// Runs `inputs` with a configuration of default values and `overrides`.

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The designs of the cases.
+
+use foveate_camera::{
+    Decimal, DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood, Payload,
+    ReferencePolicy, SUMMARY_BLOCKS, SpatialConfig,
+};
+use foveate_design::{Design, DesignConfig, Organization};
+
+/// Returns a configuration for frames of `size` with regions of side `side` and pixels of `bits`.
+/// The thresholds are low enough for any depth.
+pub(crate) fn config(
+    size: (u32, u32),
+    side: u32,
+    bits: u32,
+    features: &[FeatureKind],
+) -> DesignConfig {
+    let mut config = DesignConfig::default();
+    (config.camera.frame.width, config.camera.frame.height) = (Some(size.0), Some(size.1));
+    config.camera.frame.pixel_bits = bits;
+    config.camera.region.size = side;
+    config.camera.temporal.level = Some((1u32 << bits) / 32);
+    config.camera.temporal.min_count = 3;
+    config.camera.spatial = features.iter().map(|&kind| SpatialConfig::new(kind)).collect();
+    for spatial in &mut config.camera.spatial {
+        // `segment` finds pixels of 1 bit on both sides of a mean only if the mean has a fraction.
+        if bits == 1 && features.contains(&FeatureKind::Segment) && spatial.has_mean_fraction() {
+            spatial.mean_fraction_bits = Some(1);
+        }
+        match spatial.feature {
+            FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Segment => {
+                spatial.level = Some((1 << bits) / 4);
+                spatial.min_score = Some(Decimal::from_whole(2));
+            }
+            FeatureKind::Mad
+            | FeatureKind::Variance
+            | FeatureKind::Range
+            | FeatureKind::Surface
+            | FeatureKind::Flow => {
+                spatial.min_score = Decimal::from_f64(0.2);
+            }
+        }
+    }
+    config
+}
+
+/// Validates a configuration that is known to be valid.
+pub(crate) fn design(config: &DesignConfig) -> Design {
+    config.validate().unwrap_or_else(|error| unreachable!("the matrix holds designs: {error}"))
+}
+
+/// Returns a list of features that contains this one, alone or among others.
+fn features_with(kind: FeatureKind) -> &'static [FeatureKind] {
+    use FeatureKind::{Corner, Edge, Flow, Mad, Range, Segment, Surface, Variance};
+    match kind {
+        Edge => &[Edge],
+        Corner => &[Edge, Corner],
+        Mad => &[Mad, Edge],
+        Variance => &[Variance, Corner, Edge, Mad],
+        Range => &[Range, Mad],
+        Surface => &[Surface, Edge],
+        Segment => &[Segment, Corner, Mad],
+        Flow => &[Flow, Edge],
+    }
+}
+
+/// Returns an organization that computes the score of the feature: `pipelined` if it can.
+pub(crate) fn organization_for(kind: FeatureKind) -> Organization {
+    let supports = |one: &&Organization| one.feature_kinds().contains(&kind);
+    *Organization::ALL.iter().find(supports).expect("an organization supports each feature")
+}
+
+pub(crate) fn kinds_for(side: u32) -> Vec<FeatureKind> {
+    let fits = |&kind: &FeatureKind| match organization_for(kind) {
+        Organization::Pipelined | Organization::Raster => true,
+        Organization::Serial => side >= 4,
+    };
+    FeatureKind::ALL.iter().copied().filter(fits).collect()
+}
+
+/// Returns designs with every neighborhood, filter, payload and reference, and the features in
+/// turn.
+pub(crate) fn design_matrix(size: (u32, u32), side: u32, bits: u32) -> Vec<Design> {
+    let kinds = kinds_for(side);
+    let mut designs = Vec::new();
+    for &neighborhood in Neighborhood::ALL {
+        for &filter in DenoiseFilter::ALL {
+            for &reference in ReferencePolicy::ALL {
+                for &payload in Payload::ALL {
+                    // Each round begins with the next feature, so that a feature meets both
+                    // references and payloads.
+                    let turn = designs.len() + designs.len() / kinds.len();
+                    let kind = kinds[turn % kinds.len()];
+                    let mut config = config(size, side, bits, features_with(kind));
+                    config.hardware.organization = organization_for(kind).into();
+                    config.camera.region.neighborhood = neighborhood;
+                    config.camera.denoise.filter = filter;
+                    config.camera.temporal.reference = reference;
+                    config.camera.render.payload = payload;
+                    designs.push(design(&config));
+                }
+            }
+        }
+    }
+    designs
+}
+
+/// Returns the designs of [`design_matrix`] with irrelevant regions that show the means of blocks.
+/// The scores of random frames lie on both sides of the thresholds.
+pub(crate) fn designs_with_means(size: (u32, u32), side: u32, bits: u32) -> Vec<Design> {
+    let mut designs = Vec::new();
+    for (number, design_without_means) in design_matrix(size, side, bits).iter().enumerate() {
+        let mut config = design_without_means.config();
+        config.camera.render.irrelevant = IrrelevantRendering::Mean;
+        config.camera.periphery.blocks = Some(SUMMARY_BLOCKS[number % SUMMARY_BLOCKS.len()]);
+        config.camera.periphery.level = Some((1 << bits) >> (number % 7 + 1));
+        for spatial in &mut config.camera.spatial {
+            spatial.min_score = match spatial.feature {
+                FeatureKind::Edge | FeatureKind::Corner => {
+                    Some(Decimal::from_whole(u64::from(side * side / 2)))
+                }
+                FeatureKind::Segment => Some(Decimal::from_whole(u64::from(side * side / 8))),
+                FeatureKind::Mad
+                | FeatureKind::Variance
+                | FeatureKind::Range
+                | FeatureKind::Surface
+                | FeatureKind::Flow => Some(Decimal::from_whole(1 << (bits - 2))),
+            };
+        }
+        designs.push(design(&config));
+    }
+    designs
+}

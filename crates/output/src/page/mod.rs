@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Pages that show results: one file with plots, tables and formatted numbers. A page can be read
+//! without scripts, and loads nothing. The module does not depend on the meaning of the data.
+
+mod axis;
+#[cfg(feature = "browser")]
+pub mod browser;
+mod colour;
+mod document;
+mod error;
+mod plot;
+mod table;
+
+pub use axis::PlotAxis;
+pub use colour::{COLOUR_COUNT, colour_variables, group_look};
+pub use document::{HeadingFigure, LinkTarget, PageNotice, ResultPage};
+pub use error::PageError;
+pub use plot::{
+    AxisPosition, PagePlot, PlotAxes, PlotLine, PlotMark, coordinate_text, front_path, line_path,
+    nest_marks,
+};
+pub use table::{SortableTable, TableCell, TableColumn, TableRow};
