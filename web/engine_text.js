@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Reads the engine that the page holds as a text: the compressed foveate.wasm in base 85 (crates/boards/src/view/base85.rs).
+// Reads the engine that the page holds as a text: the compressed foveate.wasm in base 85 (crates/boards/src/view/frame_player.rs).
 
 const DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%()*+-.:;=?@[]^_{|}~";
 

@@ -1,12 +1,26 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Arrays of Python values: tests whether a value is an array, conversion of other values to arrays, and of arrays to pixels.
+//! Arrays of Python values: tests whether a value is an array, conversion of other values to
+//! arrays, and of arrays to pixels. The results of all regions of a frame as arrays, which are
+//! made when they are first read and own their memory. Pictures for notebooks.
 
-use std::path::PathBuf;
-
-use numpy::{PyArrayDescrMethods, PyUntypedArray, PyUntypedArrayMethods};
+use crate::frame::Grey;
+use crate::outcome::Outcome;
+use foveate_camera::RegionAction;
+use foveate_design::Design;
+use foveate_engine::FrameOutcome;
+use foveate_output::palette::{ACTIVE, CHANGED, RELEVANT};
+use foveate_pixels::{FramePixels, convert_depth, display_depth};
+use image::codecs::png::PngEncoder;
+use image::{ExtendedColorType, ImageEncoder};
+use numpy::{
+    Element, PyArray1, PyArray2, PyArray3, PyArrayDescrMethods, PyArrayMethods, PyUntypedArray,
+    PyUntypedArrayMethods,
+};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyString};
+use pyo3::sync::PyOnceLock;
+use pyo3::types::{PyBytes, PyDict, PyString};
+use std::path::PathBuf;
 
 /// The DLPack device whose memory is that of the processor.
 const PROCESSOR: i64 = 1;
@@ -150,4 +164,217 @@ fn short(value: f64) -> String {
     let text = format!("{value:.3}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+/// A frame of pixels as an array that owns its memory.
+pub(crate) struct Screen(pub(crate) Py<PyUntypedArray>);
+
+impl Screen {
+    /// Returns the pixels of a frame of a design.
+    pub(crate) fn of(py: Python<'_>, design: &Design, pixels: FramePixels<'_>) -> Self {
+        let size = [design.height() as usize, design.width() as usize];
+        Self(match pixels {
+            FramePixels::Bytes(pixels) => untyped_regions(py, pixels, size),
+            FramePixels::Words(pixels) => untyped_regions(py, pixels, size),
+        })
+    }
+}
+
+fn untyped_regions<T: Element + Copy>(
+    py: Python<'_>,
+    pixels: &[T],
+    size: [usize; 2],
+) -> Py<PyUntypedArray> {
+    let array = PyArray1::from_slice(py, pixels).reshape(size);
+    array
+        .expect("a pixel for every place")
+        .into_any()
+        .cast_into()
+        .expect("an array is one")
+        .unbind()
+}
+
+/// The arrays of a frame, as far as they have been read.
+pub(crate) struct RegionArrays {
+    srs: PyOnceLock<Py<PyArray2<bool>>>,
+    trs: PyOnceLock<Py<PyArray2<bool>>>,
+    active: PyOnceLock<Py<PyArray2<bool>>>,
+    action: PyOnceLock<Py<PyArray2<u8>>>,
+    changed: PyOnceLock<Py<PyArray2<i64>>>,
+    scores: PyOnceLock<Py<PyDict>>,
+    displacements: PyOnceLock<Py<PyArray3<i8>>>,
+}
+
+/// The design and the results of a frame, of which arrays are made.
+#[derive(Clone, Copy)]
+pub(crate) struct RegionResults<'a> {
+    pub(crate) design: &'a Design,
+    pub(crate) result: &'a FrameOutcome,
+}
+
+impl RegionResults<'_> {
+    fn size(self) -> [usize; 2] {
+        [self.design.rows() as usize, self.design.columns() as usize]
+    }
+
+    /// Returns an array of regions, which is made once.
+    fn once<T: Element>(
+        self,
+        py: Python<'_>,
+        held: &PyOnceLock<Py<PyArray2<T>>>,
+        values: impl ExactSizeIterator<Item = T>,
+    ) -> Py<PyArray2<T>> {
+        held.get_or_init(py, || array(py, values, self.size()).unbind()).clone_ref(py)
+    }
+}
+
+impl RegionArrays {
+    /// Makes no array yet.
+    pub(crate) fn new() -> Self {
+        Self {
+            srs: PyOnceLock::new(),
+            trs: PyOnceLock::new(),
+            active: PyOnceLock::new(),
+            action: PyOnceLock::new(),
+            changed: PyOnceLock::new(),
+            scores: PyOnceLock::new(),
+            displacements: PyOnceLock::new(),
+        }
+    }
+
+    pub(crate) fn srs(&self, py: Python<'_>, own: RegionResults<'_>) -> Py<PyArray2<bool>> {
+        own.once(py, &self.srs, own.result.srs.iter().copied())
+    }
+
+    pub(crate) fn trs(&self, py: Python<'_>, own: RegionResults<'_>) -> Py<PyArray2<bool>> {
+        own.once(py, &self.trs, own.result.trs.iter().copied())
+    }
+
+    pub(crate) fn active(&self, py: Python<'_>, own: RegionResults<'_>) -> Py<PyArray2<bool>> {
+        own.once(py, &self.active, own.result.active.iter().copied())
+    }
+
+    pub(crate) fn action(&self, py: Python<'_>, own: RegionResults<'_>) -> Py<PyArray2<u8>> {
+        own.once(py, &self.action, own.result.actions.iter().map(|&action| action_code(action)))
+    }
+
+    pub(crate) fn changed(&self, py: Python<'_>, own: RegionResults<'_>) -> Py<PyArray2<i64>> {
+        own.once(py, &self.changed, own.result.temporal_count.iter().map(|&count| count.into()))
+    }
+
+    pub(crate) fn scores(&self, py: Python<'_>, own: RegionResults<'_>) -> PyResult<Py<PyDict>> {
+        let make = || -> PyResult<Py<PyDict>> {
+            let found = PyDict::new(py);
+            for (feature, scores) in own.design.features().iter().zip(&own.result.scores) {
+                let scores = array(py, scores.iter().map(signed_score), own.size());
+                found.set_item(feature.kind().to_string(), scores)?;
+            }
+            Ok(found.unbind())
+        };
+        Ok(self.scores.get_or_try_init(py, make)?.clone_ref(py))
+    }
+
+    /// Returns the displacements, or `None` for a design without the feature `flow`.
+    pub(crate) fn displacements(
+        &self,
+        py: Python<'_>,
+        own: RegionResults<'_>,
+    ) -> Option<Py<PyArray3<i8>>> {
+        own.design.displacement_feature()?;
+        let make = || {
+            let [rows, columns] = own.size();
+            let numbers = displacement_numbers(own.result).collect();
+            let array = PyArray1::from_vec(py, numbers).reshape([rows, columns, 2]);
+            array.expect("two numbers for every region").unbind()
+        };
+        Some(self.displacements.get_or_init(py, make).clone_ref(py))
+    }
+}
+
+/// Returns the number of an action, which is its index in `foveate.ACTIONS`.
+pub(crate) fn action_code(action: RegionAction) -> u8 {
+    match action {
+        RegionAction::Blank => 0,
+        RegionAction::Hold => 1,
+        RegionAction::Forward => 2,
+        RegionAction::Summarize => 3,
+    }
+}
+
+/// Returns a score as arrays have it.
+pub(crate) fn signed_score(score: &u64) -> i64 {
+    i64::try_from(*score).expect("scores are below 2^54")
+}
+
+/// Returns the displacement of each region, to the right and down.
+pub(crate) fn displacement_numbers(result: &FrameOutcome) -> impl Iterator<Item = i8> + '_ {
+    result.displacements.iter().flat_map(|one| [one.dx, one.dy])
+}
+
+/// Returns the values of all regions, row by row.
+fn array<T: Element>(
+    py: Python<'_>,
+    values: impl ExactSizeIterator<Item = T>,
+    size: [usize; 2],
+) -> Bound<'_, PyArray2<T>> {
+    PyArray1::from_iter(py, values).reshape(size).expect("a value for every place")
+}
+
+/// Returns a grey frame of some bits per pixel as a PNG.
+#[pyfunction]
+#[pyo3(signature = (frame, bits=8))]
+pub(crate) fn grey_png<'py>(
+    py: Python<'py>,
+    frame: &Bound<'py, PyAny>,
+    bits: u32,
+) -> PyResult<Bound<'py, PyBytes>> {
+    if !(1..=16).contains(&bits) {
+        return Err(PyValueError::new_err(format!("bits = {bits}: expected 1 to 16")));
+    }
+    let grey = Grey::of(frame, bits)?;
+    let depth = display_depth(bits);
+    let shown = |value: u16| convert_depth(value, bits, depth);
+    let values = grey.values().into_iter().map(shown);
+    let bytes: Vec<u8> = if depth == 8 {
+        values.map(|value| u8::try_from(value).unwrap_or(u8::MAX)).collect()
+    } else {
+        // The encoder takes native byte order and writes the byte order of PNG.
+        values.flat_map(u16::to_ne_bytes).collect()
+    };
+    let colour = if depth == 8 { ExtendedColorType::L8 } else { ExtendedColorType::L16 };
+    png(py, &bytes, grey.size(), colour)
+}
+
+/// Returns the decisions of an outcome as a PNG with one pixel per region, in the colours of overlays with outlines.
+#[pyfunction]
+pub(crate) fn decisions_png<'py>(
+    py: Python<'py>,
+    outcome: &Bound<'py, Outcome>,
+) -> PyResult<Bound<'py, PyBytes>> {
+    const NOTHING: [u8; 3] = [64, 64, 64];
+    let record = outcome.get().record();
+    let bits = record.result.srs.iter().zip(&record.result.trs);
+    let colour = bits.flat_map(|bits| match bits {
+        (true, true) => ACTIVE,
+        (true, false) => RELEVANT,
+        (false, true) => CHANGED,
+        (false, false) => NOTHING,
+    });
+    let size = (record.design.columns() as usize, record.design.rows() as usize);
+    png(py, &colour.collect::<Vec<u8>>(), size, ExtendedColorType::Rgb8)
+}
+
+fn png<'py>(
+    py: Python<'py>,
+    bytes: &[u8],
+    (width, height): (usize, usize),
+    colour: ExtendedColorType,
+) -> PyResult<Bound<'py, PyBytes>> {
+    let side =
+        |side: usize| u32::try_from(side).map_err(|error| PyValueError::new_err(error.to_string()));
+    let mut encoded = Vec::new();
+    PngEncoder::new(&mut encoded)
+        .write_image(bytes, side(width)?, side(height)?, colour)
+        .map_err(|error| PyValueError::new_err(format!("this is not a picture: {error}")))?;
+    Ok(PyBytes::new(py, &encoded))
 }

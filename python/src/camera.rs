@@ -12,18 +12,16 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
+use super::array::Screen;
+use super::outcome::{FrameRecord, classes_of};
+use super::timed_camera::{MicroSeconds, StepClock};
 use crate::camera_state::{CameraState, NO_SIZE, PickledMap, SizedEngine, lock_camera};
-use crate::clock::{MicroSeconds, StepClock};
-use crate::config;
 use crate::design::{Design, in_words};
 use crate::error::raise;
 use crate::frame::Grey;
-use crate::frame_record::FrameRecord;
 use crate::outcome::{KeptParts, Outcome};
-use crate::region_arrays::Screen;
-use crate::region_classes::classes_of;
 use crate::registers::registers_of;
-use crate::tools;
+use crate::{config, tools};
 
 /// A camera that takes frames one by one.
 ///

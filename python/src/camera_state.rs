@@ -11,10 +11,10 @@ use foveate_simulator::SentValues;
 use pyo3::exceptions::{PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 
-use crate::clock::StepClock;
+use super::outcome::RegionClasses;
+use super::timed_camera::StepClock;
 use crate::error::raise;
 use crate::frame::{check_size, design_of_size, rows};
-use crate::frame_record::RegionClasses;
 
 /// The engine for frames of the size of the first frame.
 pub(crate) struct SizedEngine {

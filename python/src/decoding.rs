@@ -11,10 +11,10 @@ use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyString, PyTuple};
 
+use super::array::{RegionArrays, RegionResults, Screen};
 use crate::config;
 use crate::design::Design;
 use crate::error::raise;
-use crate::region_arrays::{RegionArrays, RegionResults, Screen};
 
 /// Frames of a stream of packets, made by `decode`: an iterator that holds one frame at a time.
 ///

@@ -16,15 +16,15 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use super::array::Screen;
+use super::clip_run::{ClipInputs, problem_text, warn_of_problem};
+use super::outcome::{FrameRecord, RegionClasses};
 use crate::array::{conversion, untyped};
-use crate::clip_inputs::{ClipInputs, problem_text, warn_of_problem};
 use crate::config;
 use crate::design::{Design, in_words};
 use crate::error::raise;
-use crate::frame_record::{FrameRecord, RegionClasses};
 use crate::options::input_options;
 use crate::outcome::{KeptParts, Outcome};
-use crate::region_arrays::Screen;
 use crate::work::at_once;
 
 /// A run over footage, made by `simulate`: an iterator of outcomes that holds one frame at a time.

@@ -14,7 +14,7 @@ use pyo3::exceptions::{PyIsADirectoryError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::clip_inputs::{ARRAY_NAME, ClipInputs, paths, warn_of_problem};
+use super::clip_run::{ARRAY_NAME, ClipInputs, paths, warn_of_problem};
 use crate::config;
 use crate::error::raise;
 use crate::options::input_options;

@@ -8,11 +8,7 @@
 mod array;
 mod camera;
 mod camera_state;
-mod clip_clocks;
-mod clip_inputs;
 mod clip_run;
-mod clock;
-mod clock_table;
 mod config;
 mod core_surroundings;
 mod decoding;
@@ -20,14 +16,10 @@ mod design;
 mod error;
 mod footage;
 mod frame;
-mod frame_record;
 mod inference;
 mod options;
 mod outcome;
-mod picture;
 mod pixel_events;
-mod region_arrays;
-mod region_classes;
 mod registers;
 mod study;
 mod table;
@@ -45,9 +37,11 @@ mod _foveate {
     use pyo3::prelude::*;
 
     #[pymodule_export]
-    use crate::camera::Camera;
+    use super::array::{decisions_png, grey_png};
     #[pymodule_export]
-    use crate::clip_clocks::clocks;
+    use super::timed_camera::clocks;
+    #[pymodule_export]
+    use crate::camera::Camera;
     #[pymodule_export]
     use crate::clip_run::run_clip;
     #[pymodule_export]
@@ -64,8 +58,6 @@ mod _foveate {
     use crate::options::refuse_option;
     #[pymodule_export]
     use crate::outcome::Outcome;
-    #[pymodule_export]
-    use crate::picture::{decisions_png, grey_png};
     #[pymodule_export]
     use crate::pixel_events::pixel_event_records;
     #[pymodule_export]

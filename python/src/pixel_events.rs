@@ -13,7 +13,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict};
 
-use crate::clip_inputs::{ClipInputs, problem_text, warn_of_problem};
+use super::clip_run::{ClipInputs, problem_text, warn_of_problem};
 use crate::config;
 use crate::error::{raise, value_error};
 use crate::options::input_options;

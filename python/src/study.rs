@@ -5,7 +5,7 @@ use foveate_explore::compare;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::clip_inputs::{ClipInputs, warn_of_problem};
+use super::clip_run::{ClipInputs, warn_of_problem};
 use crate::config;
 use crate::error::{raise, value_error};
 use crate::options::input_options;

@@ -9,7 +9,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use crate::frame_record::FrameRecord;
+use super::outcome::FrameRecord;
 use crate::outcome::Outcome;
 
 /// The values of a column.

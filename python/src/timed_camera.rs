@@ -1,23 +1,27 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A camera that takes frames one by one, and returns when its hardware decides, sends and loses regions.
+//! A camera that takes frames one by one, and returns when its hardware decides, sends and
+//! loses regions. Times of frames that are given one by one. They never decrease. The table of
+//! clocks, as `clocks.npy` has it. The clocks of a whole clip.
 
-use std::sync::{Mutex, MutexGuard};
-
-use foveate_design::DesignConfig;
-use foveate_pixels::FramePixels;
-use foveate_timed::{TimedClip, TimedError};
-use pyo3::exceptions::PyTypeError;
-use pyo3::prelude::*;
-use pyo3::types::PyDict;
-
+use super::clip_run::{ClipInputs, problem_text, warn_of_problem};
 use crate::camera_state::lock_camera;
-use crate::clock::{MicroSeconds, StepClock};
-use crate::clock_table::ClockTable;
 use crate::config;
 use crate::core_surroundings::{ClockFrequency, CoreSurroundings, SinkRate, SinkStalls};
 use crate::design::{Design, in_words};
 use crate::error::raise;
 use crate::frame::{Grey, packed};
+use crate::options::input_options;
+use crate::work::{CancelFlag, interruptible};
+use foveate_design::DesignConfig;
+use foveate_media::{FrameRate, InputOptions, RunMonitor};
+use foveate_pixels::FramePixels;
+use foveate_timed::{ClockRow, TimedClip, TimedError};
+use numpy::{IntoPyArray, PyArrayMethods};
+use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, Mutex, MutexGuard};
 
 /// A camera that takes frames one by one, and returns the clocks at which its hardware decides, sends and loses regions.
 ///
@@ -259,4 +263,176 @@ fn rows_of_step(
     let mut rows = ClockTable::default();
     clip.step(pixels, time_us, &mut |row| rows.push(row))?;
     Ok(rows)
+}
+
+/// A time as Python passes it.
+#[derive(Clone, Copy)]
+pub(crate) struct MicroSeconds(pub(crate) u64);
+
+impl<'py> FromPyObject<'_, 'py> for MicroSeconds {
+    type Error = PyErr;
+
+    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
+        let wrong = format!(
+            "time_us = {}: expected a whole number of microseconds, 0 to {}",
+            value.repr()?,
+            u64::MAX
+        );
+        match value.extract() {
+            Ok(time) => Ok(Self(time)),
+            Err(_) if value.hasattr("__index__")? => Err(PyOverflowError::new_err(wrong)),
+            Err(_) => Err(PyTypeError::new_err(wrong)),
+        }
+    }
+}
+
+/// The last frame with a given time, and the time of the last frame.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct StepClock {
+    given: (u64, u64),
+    last: u64,
+}
+
+impl StepClock {
+    /// Returns the time of the next frame: the given time, if it is not before that of the last frame.
+    pub(crate) fn next(&self, number: u64, time_us: Option<u64>) -> PyResult<u64> {
+        let (since, from) = self.given;
+        let Some(time_us) = time_us else {
+            return Ok(from.saturating_add(FrameRate::default().time_us(number - since)));
+        };
+        if time_us < self.last {
+            return Err(PyValueError::new_err(format!(
+                "time_us = {time_us} is before the time of the frame before, {}; times never go back, so give the frames in \
+                 their order, or call reset() before another clip",
+                self.last
+            )));
+        }
+        Ok(time_us)
+    }
+
+    /// Returns the time of the first frame of a clip that follows `number` frames, one period of
+    /// `rate` after the last of them.
+    pub(crate) fn continuation(&self, number: u64, rate: FrameRate) -> u64 {
+        match number.checked_sub(1) {
+            None => 0,
+            // Periods are rounded, so a clip in two runs has the times of one run.
+            Some(last) if self.last == rate.time_us(last) => rate.time_us(number),
+            Some(_) => self.last.saturating_add(rate.time_us(1)),
+        }
+    }
+
+    /// Records a frame that was taken. A given time becomes the start from which later times are counted.
+    pub(crate) fn take(&mut self, number: u64, time_us: u64) {
+        let (since, from) = self.given;
+        if time_us != from.saturating_add(FrameRate::default().time_us(number - since)) {
+            self.given = (number, time_us);
+        }
+        self.last = time_us;
+    }
+}
+
+/// The numbers of the columns, row by row.
+#[derive(Default)]
+pub(crate) struct ClockTable(Vec<i64>);
+
+impl ClockTable {
+    pub(crate) fn push(&mut self, row: &ClockRow) {
+        self.0.extend(row.numbers().map(u64::cast_signed));
+    }
+
+    /// Returns the table as a structured array.
+    pub(crate) fn into_python(self, py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
+        const COLUMNS: usize = ClockRow::COLUMNS.len();
+        let size = [self.0.len() / COLUMNS, COLUMNS];
+        let numbers = self.0.into_pyarray(py).reshape(size)?;
+        py.import("foveate._tables")?.call_method1("clock_rows", (numbers,))
+    }
+}
+
+/// Make the table of the clocks at which the hardware of a design decides, sends and loses the regions of a clip.
+///
+/// Parameters
+/// ----------
+/// inputs : path, pattern, "scene:NAME", a list of these, or frames
+///     Inputs of the command line, or frames that you have as arrays: an array of shape (frames, height, width), or a list of
+///     arrays (height, width). They are one clip.
+/// camera : Camera, Design, preset, file or dict, optional
+///     The camera. The run makes its own camera of this design, which has seen no frame; the state of `camera` is
+///     neither used nor changed.
+/// clock_hz, sink_rate, sink_stalls : optional
+///     The clock of the core and the sink of its words, see `TimedCamera`.
+/// max_frames, input_fps, rate, start, end, crop, resize, luma, orientation, video_stream, raw, bayer, timestamps, timestamp_unit, images, labels : optional
+///     How inputs are read, see `simulate`. Frames from arrays have the times of `rate` (30 frames per second).
+///
+/// Returns
+/// -------
+/// numpy.ndarray
+///     All rows, a structured array as `TimedCamera.step` returns it. The table of a long clip is large:
+///     `TimedCamera` returns its rows frame by frame.
+///
+/// Raises
+/// ------
+/// FileNotFoundError, ValueError
+///     If an input cannot be read, is a set of unrelated images, or does not fit the configuration, or if a rate or a
+///     stall is not valid.
+/// TypeError
+///     If an option does not exist or has another type, or if `inputs` are neither footage nor frames.
+/// ToolError
+///     If ffmpeg is needed and missing.
+///
+/// Examples
+/// --------
+/// >>> rows = clocks("scene:street", "raster", clock_hz=100e6, sink_rate=(1, 4), max_frames=8)
+/// >>> numpy.count_nonzero(rows["event"] == "loss")
+#[pyfunction]
+#[pyo3(
+    signature = (inputs, camera=None, *, clock_hz=None, sink_rate=None, sink_stalls=None, **options),
+    text_signature = "(inputs, camera=None, *, clock_hz=None, sink_rate=None, sink_stalls=None, max_frames=None, input_fps=None, \
+                      rate=None, start=None, end=None, crop=None, resize=None, luma=None, orientation=None, video_stream=None, raw=None, bayer=None, \
+                      timestamps=None, timestamp_unit=None, images=None, labels=None)"
+)]
+#[allow(clippy::too_many_arguments, reason = "they are the arguments of the function in Python")]
+pub(crate) fn clocks<'py>(
+    py: Python<'py>,
+    inputs: &Bound<'_, PyAny>,
+    camera: Option<&Bound<'_, PyAny>>,
+    clock_hz: Option<ClockFrequency>,
+    sink_rate: Option<SinkRate>,
+    sink_stalls: Option<SinkStalls>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Bound<'py, PyAny>> {
+    let surroundings = CoreSurroundings::from_options(clock_hz, sink_rate, sink_stalls)?;
+    let options = input_options("clocks", &CoreSurroundings::OPTIONS, options)?;
+    let config = config::read(camera, None)?;
+    let inputs = ClipInputs::of("clocks", inputs, config.camera.frame.pixel_bits)?;
+    inputs.warn_of_skipped(py, &options)?;
+    let (rows, problem) = interruptible(py, |cancel| {
+        rows_of_clip(inputs, &config, &surroundings, &options, cancel)
+    })??;
+    warn_of_problem(py, problem)?;
+    rows.into_python(py)
+}
+
+/// Shows a clip to a core. Returns all rows, and the error that ended the footage before its end.
+fn rows_of_clip(
+    inputs: ClipInputs,
+    config: &DesignConfig,
+    surroundings: &CoreSurroundings,
+    options: &InputOptions,
+    cancel: Arc<AtomicBool>,
+) -> PyResult<(ClockTable, Option<String>)> {
+    let mut player = inputs.open_clip("clocks", &config.camera, options)?;
+    let (width, height) = player.size();
+    let design = config.validate_for_frames(width, height).map_err(raise)?;
+    let mut clip = TimedClip::new(&design, surroundings.clock_hz, &surroundings.sink);
+    let mut rows = ClockTable::default();
+    let hooks = CancelFlag(cancel);
+    let monitor = RunMonitor::of_frames(&hooks, player.frames());
+    for frame in monitor.watch(&mut player) {
+        let frame = frame.map_err(raise)?;
+        let pixels = frame.frame.borrowed_pixels();
+        clip.step(pixels, frame.time_us, &mut |row| rows.push(row)).map_err(raise)?;
+    }
+    clip.finish(&mut |row| rows.push(row)).for_each(drop);
+    Ok((rows, problem_text(&player)))
 }

@@ -17,7 +17,7 @@ import pytest
 from PIL import Image
 from waiting import until
 
-# Python's digits of base 85, and those of the page (crates/boards/src/view/base85.rs).
+# Python's digits of base 85, and those of the page (crates/boards/src/view/frame_player.rs).
 PYTHON_DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%&()*+-;<=>?@^_`{|}~"
 PAGE_DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%()*+-.:;=?@[]^_{|}~"
 CHROMIUMS = ("chromium", "chromium-browser", "google-chrome", "chrome")

@@ -11,10 +11,10 @@ use foveate_emit::array_scores;
 use foveate_engine::Engine;
 use foveate_tools::escaping::comment_text;
 
+use super::text_forms::rendered;
 use crate::pattern::pattern_frame;
 use crate::project::BoardProject;
 use crate::sensor::LogicLevel;
-use crate::text::rendered;
 
 /// The number of bits of a byte.
 const BYTE: u32 = 8;

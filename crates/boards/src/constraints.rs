@@ -4,9 +4,9 @@
 use foveate_emit::SourceFile;
 use foveate_tools::escaping::tcl_word;
 
+use super::text_forms::source_file;
 use crate::board::DeviceFamily;
 use crate::project::{BoardProject, PortPin};
-use crate::text::source_file;
 
 /// The I/O standard of pins for which a board names none.
 const DEFAULT_STANDARD: &str = "LVCMOS33";

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The check of the characters in the texts of a file. The texts appear in scripts and pages, so
-//! each text must be a plain word. The keys that need other characters are listed with the form of
-//! their text. A key that is not listed, as one that is added later, takes only a plain word.
+//! The check of the characters in the texts of a file. The texts appear in scripts and pages,
+//! so each text must be a plain word. The keys that need other characters are listed with the
+//! form of their text. A key that is not listed, as one that is added later, takes only a plain
+//! word. Files, and filled templates.
 
+use askama::Template;
+use foveate_emit::SourceFile;
 use foveate_tools::escaping::{is_hidden, message_excerpt};
 use toml::{Table, Value};
 
@@ -150,6 +153,17 @@ fn is_command(text: &str) -> bool {
 fn is_sensor(text: &str) -> bool {
     let name = text.rsplit('/').next().unwrap_or_default();
     is_word(name, "") && !text.contains(is_hidden)
+}
+
+/// Returns a file of a project.
+pub(crate) fn source_file(path: &str, contents: String) -> SourceFile {
+    SourceFile { path: path.to_owned(), contents }
+}
+
+/// Returns a filled template, with the newline at its end that askama drops.
+pub(crate) fn rendered(view: &impl Template) -> String {
+    let text = view.render();
+    text.map_or_else(|e| unreachable!("a template only fails when writing does: {e}"), |t| t + "\n")
 }
 
 #[cfg(test)]

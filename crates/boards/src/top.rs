@@ -11,13 +11,13 @@ use foveate_emit::{
 };
 use foveate_tools::escaping::comment_text;
 
+use super::text_forms::{rendered, source_file};
 use crate::array;
 use crate::board::SensorPins;
 use crate::clock::ClockSource;
 use crate::pattern::{COMPARED_FRAMES, packet_layout, packet_sums};
 use crate::project::BoardProject;
 use crate::sensor::{LogicLevel, Sensor};
-use crate::text::{rendered, source_file};
 
 /// The rate of I2C in bits per second.
 const I2C_HZ: u32 = 100_000;

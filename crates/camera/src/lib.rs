@@ -7,7 +7,6 @@
 //! [`Camera`], which is immutable and gives the grid, the thresholds and the widths of scores. No
 //! other crate validates a configuration or derives a width again. This crate does no I/O.
 
-mod action;
 mod base_classes;
 mod bounds;
 mod camera;
@@ -26,7 +25,6 @@ mod keys;
 mod periphery;
 mod ranges;
 mod reciprocal;
-mod reference;
 mod region_class;
 mod sent_values;
 mod temporal_thresholds;
@@ -36,7 +34,6 @@ mod width;
 mod zones;
 mod zones_config;
 
-pub use action::RegionAction;
 pub use bounds::KeyBound;
 pub use camera::{Camera, TemporalParameters};
 pub use choice::{
@@ -59,8 +56,8 @@ pub use ranges::{
     FLOW_RADII, MAX_SIDE, MEAN_FRACTION_BITS, PIXEL_BITS, REGION_SIZES, SUMMARY_BLOCKS, check_range,
 };
 pub use reciprocal::Reciprocal;
-pub use reference::ReferenceWriteTime;
 pub use region_class::{ClassMapError, RegionClass};
+pub use sent_values::{ReferenceWriteTime, RegionAction};
 pub use width::{bits_for, index_bits, mad_score_max};
 pub use zones::Zones;
 pub use zones_config::{

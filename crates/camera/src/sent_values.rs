@@ -11,8 +11,12 @@
 //!
 //! The two bits say what happens to every region, so no addresses are sent. A displacement has the
 //! bits of dx and dy: 4 for a radius of 1, and 6 for a larger one.
+//!
+//! The effect of a decision on a region of the screen. The demands of a reference on the
+//! hardware that stores it. A new reference must be added to every match here. Each
+//! implementation of the camera defines what it computes with the reference.
 
-use crate::{Camera, Periphery, RegionAction};
+use crate::{Camera, Periphery, ReferencePolicy};
 
 /// Bits per region and frame that encode the decision and whether a summary is sent.
 const DECISION_BITS: u64 = 2;
@@ -59,6 +63,90 @@ impl Camera {
     pub fn bits_sent(&self, frames: u64, values: u64) -> u64 {
         let regions = u64::from(self.regions()) * frames;
         self.bits_per_region() * regions + values * u64::from(self.pixel_bits())
+    }
+}
+
+/// The effect of a decision on a region of the screen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum RegionAction {
+    /// The region is active: its current pixels are forwarded and shown.
+    Forward,
+    /// The screen keeps the pixels that it shows of the region.
+    Hold,
+    /// The region becomes black on the screen.
+    Blank,
+    /// The summary of the region is sent: the screen shows every block as its mean.
+    Summarize,
+}
+
+impl RegionAction {
+    /// Returns the name that tables use.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Forward => "forward",
+            Self::Hold => "hold",
+            Self::Blank => "blank",
+            Self::Summarize => "summarize",
+        }
+    }
+}
+
+/// The time at which the reference of a region is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ReferenceWriteTime {
+    /// The reference is written with every frame, whatever the decision for the region is.
+    EveryFrame,
+    /// The reference is written when pixels of the region leave, and at no other time.
+    WhenSent,
+}
+
+impl ReferencePolicy {
+    /// Returns the time at which the reference of a region is written.
+    #[must_use]
+    pub fn write_time(self) -> ReferenceWriteTime {
+        match self {
+            Self::Previous => ReferenceWriteTime::EveryFrame,
+            Self::LastSent => ReferenceWriteTime::WhenSent,
+        }
+    }
+
+    /// Returns true if, in a sequence of equal frames, scores and decisions do not change any more
+    /// from the second frame on.
+    #[must_use]
+    pub fn is_stable_on_equal_frames(self) -> bool {
+        match self {
+            // Both references hold the same pixels as the new frame.
+            Self::Previous | Self::LastSent => true,
+        }
+    }
+
+    /// Returns the bits of state per pixel, for pixels of `pixel_bits` bits.
+    #[must_use]
+    pub fn bits_per_pixel(self, pixel_bits: u32) -> u32 {
+        match self {
+            Self::Previous | Self::LastSent => pixel_bits,
+        }
+    }
+
+    /// Returns the bits of state per region in addition to its pixels: one if regions differ in
+    /// whether they have a valid reference, else 0.
+    #[must_use]
+    pub fn bits_per_region(self) -> u32 {
+        match self {
+            Self::Previous => 0,
+            Self::LastSent => 1,
+        }
+    }
+
+    /// Returns true if a region whose pixels are lost on their way out has no valid reference any
+    /// more.
+    #[must_use]
+    pub fn is_lost_with_its_region(self) -> bool {
+        match self {
+            Self::Previous => false,
+            Self::LastSent => true,
+        }
     }
 }
 

@@ -13,21 +13,15 @@ mod examples;
 mod explain;
 mod explore;
 mod fit;
-mod frames;
 mod infer;
 mod input;
 mod link;
-mod live;
 mod outputs;
 #[cfg(test)]
 mod page;
-mod pixel_event_format;
-mod process;
-mod standard_input;
 mod stress;
 mod threads;
 mod view;
-mod vision;
 
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
@@ -47,21 +41,20 @@ pub(crate) use analyze::AnalyzeArgs;
 pub(crate) use bench::BenchArgs;
 pub(crate) use build::BuildArgs;
 pub(crate) use check::{CheckArgs, ClockFrequency, FramesPerSecond};
-pub(crate) use clocks::ClockArgs;
+pub(crate) use clocks::{ClockArgs, ProcessArgs};
 pub(crate) use dataset::DatasetArgs;
 pub(crate) use decode::DecodeArgs;
 pub(crate) use explain::ExplainArgs;
 pub(crate) use explore::ExploreArgs;
 pub(crate) use fit::FitArgs;
 pub(crate) use infer::InferArgs;
-pub(crate) use input::{check_output, refuse_several_clips, warn_about_inputs};
+pub(crate) use input::{
+    check_output, refuse_second_reader, refuse_several_clips, warn_about_inputs,
+};
 pub(crate) use link::LinkArgs;
-pub(crate) use live::LiveArgs;
 pub(crate) use outputs::OutputArgs;
-pub(crate) use process::ProcessArgs;
-pub(crate) use standard_input::refuse_second_reader;
 pub(crate) use stress::StressArgs;
-pub(crate) use view::ViewArgs;
+pub(crate) use view::{LiveArgs, ViewArgs};
 
 /// Region-based event cameras: bit-accurate model, Verilog, co-simulation, area and simulation.
 #[derive(Debug, Parser)]

@@ -4,8 +4,8 @@
 //! It is counted from the inputs of the vectors and the outputs of the model, from the reset of the
 //! sequence on.
 
+use super::layout::RecordField;
 use crate::error::CosimError;
-use crate::field::RecordField;
 use crate::layout::RecordLayout;
 use crate::recording::Recording;
 use foveate_design::{

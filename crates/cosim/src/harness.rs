@@ -2,7 +2,7 @@
 //! The sources that are made from a port list alone: the C++ harness for Verilator and the replay
 //! bench.
 
-use crate::field::RecordField;
+use super::layout::RecordField;
 use crate::gate::ComparisonGate;
 use crate::layout::RecordLayout;
 use askama::Template;

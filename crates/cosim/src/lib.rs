@@ -13,24 +13,19 @@
 
 mod benchmark;
 mod bus;
-mod cells;
 mod codec;
-mod comparison;
 mod core_activity;
 mod diagram;
 mod elaboration;
 mod energy;
 mod error;
-mod field;
 mod gate;
 mod harness;
 mod hierarchy;
 mod job;
-mod junit;
 mod layout;
 mod level;
 mod mismatch;
-mod mismatch_region;
 mod netlist;
 mod recording;
 mod replay;
@@ -39,22 +34,17 @@ mod shipped_bench;
 mod simulation;
 mod situations;
 mod stimulus;
-mod summary;
 #[cfg(test)]
 mod testing;
 mod timed_run;
-mod vector_packer;
-mod written_core;
 
-pub use self::written_core::{CORE, WrittenCore, write_core};
+pub use self::replay::{CORE, WrittenCore, write_core};
 pub use benchmark::{
     BENCHMARK_FORMAT_VERSION, Benchmark, BenchmarkLevel, BenchmarkReport, ExternalTools,
     LevelMeasurement, LevelRow, random_frames,
 };
 pub use bus::BusJob;
-pub use cells::{cell_models, has_miswired_block_ram};
-pub use codec::RecordCodec;
-pub use comparison::PortDifference;
+pub use codec::{RecordCodec, VectorPacker};
 pub use diagram::timing_diagram;
 pub use elaboration::{UnelaboratedVariant, unelaborated_variants};
 pub use energy::{
@@ -62,23 +52,22 @@ pub use energy::{
     StretchEnergy, measure_energy, render_energy_markdown, render_energy_text,
 };
 pub use error::CosimError;
-pub use field::RecordField;
 pub use gate::ComparisonGate;
 pub use harness::{bench_file, bench_name, cpp_harness, replay_bench};
 pub use hierarchy::{UnsimulatedModules, core_prefixes, unsimulated_modules};
 pub use job::{CosimJob, CosimProgress};
-pub use junit::{junit_error, junit_xml};
-pub use layout::RecordLayout;
+pub use layout::{RecordField, RecordLayout};
 pub use level::CosimLevel;
-pub use mismatch::{Mismatch, PortMismatch};
-pub use netlist::{Netlist, NetlistRecord};
+pub use mismatch::{Mismatch, PortDifference, PortMismatch};
+pub use netlist::{Netlist, NetlistRecord, cell_models, has_miswired_block_ram};
 pub use recording::{Recorder, Recording, RecordingSpan, vectors_hex};
 pub use replay::REPLAY;
-pub use report::{CosimReport, StepSeconds};
+pub use report::{
+    CosimReport, CosimSummary, CosimVerdict, FORMAT_VERSION, StepSeconds, UnreachedVerilog,
+    junit_error, junit_xml,
+};
 pub use shipped_bench::{RegionLosses, ShippedBench, VectorTally};
 pub use simulation::{DesignUnderTest, SimulationOutcome, SimulationRun, Simulator};
 pub use situations::{Occurrence, Occurrences};
 pub use stimulus::{Stimulus, UnitFrames};
-pub use summary::{CosimSummary, CosimVerdict, FORMAT_VERSION, UnreachedVerilog};
 pub use timed_run::{OutputAgreement, TimedRun};
-pub use vector_packer::VectorPacker;

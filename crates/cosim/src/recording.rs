@@ -4,10 +4,10 @@
 //! Both are files of packed records (see [`RecordLayout`]) in a folder of their own. So the length
 //! of a run is limited by the disk and not by memory, and the simulator reads the inputs directly.
 
+use super::codec::VectorPacker;
 use crate::error::CosimError;
 use crate::layout::RecordLayout;
 use crate::situations::{Occurrences, SituationMonitor};
-use crate::vector_packer::VectorPacker;
 use foveate_design::{Design, Port};
 use foveate_emit::Top;
 use foveate_tools::ScratchFolder;

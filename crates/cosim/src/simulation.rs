@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A run of a recording through a simulator, which finds the first outputs that differ.
 
-use crate::comparison::{PortDifference, compare, parse_clocks, parse_mismatch};
+use super::mismatch::{PortDifference, compare, parse_clocks, parse_mismatch};
 use crate::error::CosimError;
 use crate::harness::{bench_file, bench_name, cpp_harness, replay_bench};
 use crate::recording::{ENDS_FILE, Recording, VECTORS_FILE};

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The configuration file: the tables of a camera, and the table of the hardware that computes it.
-//! The defaults are those of the paper's design.
+//! The configuration file: the tables of a camera, and the table of the hardware that computes
+//! it. The defaults are those of the paper's design. The fingerprint of a design: a short hash
+//! of its configuration.
 
-use crate::{HardwareConfig, keys::HARDWARE_KEYS};
+use crate::HardwareConfig;
+use crate::keys::HARDWARE_KEYS;
 use foveate_camera::{CAMERA_KEYS, CameraConfig, ConfigError, ConfigKey, toml_text};
 use serde::Serialize;
+use sha2::{Digest, Sha256};
+use std::fmt::Write;
 use toml::Table;
 
 /// A whole configuration file. [`DesignConfig::validate`] checks it.
@@ -66,4 +70,19 @@ impl toml_text::TomlConfig for DesignConfig {
         let hardware = HardwareConfig::from_table(&hardware)?;
         Ok(Self { camera: CameraConfig::from_table(table)?, hardware })
     }
+}
+
+/// Version of the meaning of a configuration. It changes when an unchanged configuration means
+/// something else.
+const CONTRACT: &str = "foveate design 1\n";
+
+/// Returns the first 64 bits of the SHA-256 of a validated configuration, as 16 hexadecimal digits.
+pub(crate) fn config_fingerprint(config: &DesignConfig) -> String {
+    let mut hash = Sha256::new();
+    hash.update(CONTRACT);
+    hash.update(config.to_toml());
+    hash.finalize().iter().take(8).fold(String::new(), |mut text, byte| {
+        let _ = write!(text, "{byte:02x}");
+        text
+    })
 }

@@ -3,9 +3,10 @@
 
 use std::ops::Deref;
 
+use super::config;
 use crate::{
     DesignConfig, Hardware, HardwareConfig, InterfaceKind, Organization, Pipelining,
-    ThresholdSource, fingerprint,
+    ThresholdSource,
 };
 use foveate_camera::Camera;
 
@@ -66,7 +67,7 @@ impl Design {
     /// configurations.
     #[must_use]
     pub fn fingerprint(&self) -> String {
-        fingerprint::config_fingerprint(&self.config())
+        config::config_fingerprint(&self.config())
     }
 
     /// Returns the organization of the hardware.

@@ -4,14 +4,13 @@
 //!
 //! A [`DesignConfig`] holds the keys that a user writes. [`DesignConfig::validate`] turns it into a
 //! [`Design`], which is immutable and gives latencies, memories, lists of ports and its
-//! fingerprint. It dereferences to its [`Camera`], which is defined in the crate of that name. No
+//! fingerprint. It dereferences to its [`Camera`](foveate_camera::Camera), which is defined in the crate of that name. No
 //! other crate validates a configuration or derives a width again. This crate does no I/O.
 
 mod choice;
 mod class_memory;
 mod config;
 mod design;
-mod fingerprint;
 mod hardware;
 mod hardware_config;
 mod hardware_view;
@@ -22,9 +21,7 @@ mod pipelined;
 mod port;
 mod preset;
 mod raster;
-mod rules;
 mod serial;
-mod support;
 mod thresholds;
 mod timing;
 mod validation;
@@ -40,11 +37,11 @@ pub use hardware::Hardware;
 pub use hardware_config::{HardwareConfig, OrganizationConfig, RasterConfig, SerialConfig};
 pub use hardware_view::{DesignWithHardware, PipelinedDesign, RasterDesign, SerialDesign};
 pub use interface::{BeatRegion, CoreInterface, CoreStream, StreamRole};
+pub use organization::{ArrayStructure, ArrayUnit};
 pub use pipelined::{PipelinedHardware, PipelinedTiming};
 pub use port::{OutputQualifier, Port, PortDirection, PortRole};
 pub use preset::{PRESETS, Preset};
 pub use raster::{FRAME_NUMBERS, RasterHardware, RasterMemory, RasterTiming, SecondPassTiming};
-pub use rules::{ArrayStructure, ArrayUnit};
 pub use serial::{
     BlockMeanDivision, FlowSearch, LaneMemory, LaneWidths, MemoryChoice, SerialHardware,
     SerialPhase, SerialTiming, SlotArea, SlotAreaKind,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Validation: checks every range and combination of a configuration, and makes a design of it.
 
+use super::organization::check_support;
 use crate::pipelined::PipelinedHardware;
 use crate::raster::RasterHardware;
 use crate::serial::SerialHardware;
-use crate::support::check_support;
 use crate::{Design, DesignConfig, Hardware, HardwareConfig, Organization, OrganizationConfig};
 use foveate_camera::{ConfigError, MAX_SIDE};
 

@@ -7,12 +7,8 @@
 
 mod axi;
 mod camera_flags;
-mod class_map;
 mod core_files;
 mod error;
-mod feature_parameters;
-mod frame_sync;
-mod instance;
 mod leaf;
 mod leaf_files;
 mod organization;
@@ -23,15 +19,14 @@ mod readme;
 mod rpu;
 mod serial;
 mod synthesis_scripts;
-mod thresholds;
 mod top;
 mod verilog;
 mod verilog_text;
-mod wrapped_port;
 
-pub use crate::axi::{ARRAY_REGISTERS, array_registers, array_scores, array_software, array_table};
-pub use crate::axi::{AXI_PARTS, FieldKind, Register, RegisterField};
-pub use crate::axi::{axi_modules, axi_registers, axi_software, register_table};
+pub use crate::axi::{
+    ARRAY_REGISTERS, AXI_PARTS, FieldKind, Register, RegisterField, array_registers, array_scores,
+    array_software, array_table, axi_modules, axi_registers, axi_software, register_table,
+};
 pub use crate::core_files::core_files;
 pub use error::EmitError;
 pub use leaf::{BOARD_LEAVES, LEAVES, Leaf};

@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fills `raster.v`, the top of a raster design: the core, or the core for the smallest frame.
 
+use super::camera_flags::{
+    ThresholdConstant, ThresholdSignal, filter_number, parameter_prefix, scores_text,
+    summary_level_signal, threshold_constants, threshold_signal,
+};
+use super::top::{
+    self, FrameSync, class_address_range, class_connections, class_parameters,
+    class_summary_levels, first_map, keen_signal,
+};
 use crate::camera_flags::{blanks_flag, last_sent_flag};
-use crate::class_map::{
-    class_address_range, class_connections, class_parameters, class_summary_levels, first_map,
-    keen_signal,
-};
-use crate::feature_parameters::{filter_number, parameter_prefix};
-use crate::frame_sync::{self, FrameSync};
-use crate::thresholds::{
-    ThresholdConstant, ThresholdSignal, scores_text, summary_level_signal, threshold_constants,
-    threshold_signal,
-};
 use crate::verilog_text::{PortLine, module_file, rendered_text};
 use crate::{SourceFile, Top, banner};
 use askama::Template;
@@ -118,8 +116,8 @@ fn view(design: RasterDesign<'_>, named: &Design, top: Top) -> RasterTop {
         scores: score_signals(design),
         streams,
         sync: FrameSync::with_ready(&design, frame_beats(design)),
-        valid: frame_sync::valid_signal(&design),
-        ready: frame_sync::ready_signal(&design),
+        valid: top::valid_signal(&design),
+        ready: top::ready_signal(&design),
     }
 }
 

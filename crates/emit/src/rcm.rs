@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Generates the modules of a pipelined design, and fills `rcm.v`.
 
-use crate::frame_sync::{self, FrameSync};
+use super::top::{self, FrameSync};
 use crate::leaf_files::leaf_files;
 use crate::verilog_text::{PortLine, module_file, rendered_text};
 use crate::{SourceFile, Top, banner, rpu};
@@ -74,7 +74,7 @@ fn port_connection(design: PipelinedDesign<'_>, port: &Port, rcm_ports: &[Port])
     let name = port.name.clone();
     let per_lane = rcm_ports.iter().any(|outer| outer.name == name && outer.per_lane);
     let connection = match port.role {
-        PortRole::Valid => frame_sync::valid_signal(&design).to_owned(),
+        PortRole::Valid => top::valid_signal(&design).to_owned(),
         PortRole::DecisionValid => "decision_valid[REGION]".to_owned(),
         PortRole::Border => {
             "{row == ROWS - 1, row == 0, column == COLUMNS - 1, column == 0}".to_owned()

@@ -6,8 +6,8 @@ mod sync;
 
 pub(crate) use raster::raster_readme;
 
-use crate::instance::instance;
-use crate::thresholds::threshold_value;
+use super::camera_flags::threshold_value;
+use super::verilog_text::instance;
 use crate::verilog_text::rendered_text;
 use crate::{Prefix, Top, banner, latency_text};
 use askama::Template;

@@ -6,9 +6,9 @@ mod temporal_score;
 use self::temporal_score::{
     ReferenceCandidate, compared_values, keeps_second_frame, reference_candidates, unused_flags,
 };
+use super::camera_flags::{ThresholdConstant, scores_text, threshold_constants, threshold_signal};
 use crate::camera_flags::{blanks_flag, last_sent_flag};
 use crate::leaf::filter_leaf;
-use crate::thresholds::{ThresholdConstant, scores_text, threshold_constants, threshold_signal};
 use crate::verilog_text::{PortLine, rendered_text};
 use crate::{banner, latency_text};
 use askama::Template;

@@ -5,9 +5,9 @@
 //! The scripts do the same as `foveate estimate --place-and-route`. A core has more ports than a
 //! device has pins, so a module around it connects each bit to a register of the device.
 
+use super::verilog_text::WrappedPort;
 use crate::top::{self, AXI_CLOCK, AXI_TOP, CLOCK};
 use crate::verilog_text::rendered_text;
-use crate::wrapped_port::WrappedPort;
 use crate::{Prefix, SourceFile, Top, axi, banner};
 use askama::Template;
 use foveate_design::{Design, PortRole};

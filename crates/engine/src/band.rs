@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use foveate_camera::{ReferencePolicy, RegionClass};
 
-use crate::block_levels::{BlockLevels, UniformLevel};
+use super::periphery::{BlockLevels, UniformLevel};
 use crate::denoised::Denoiser;
 use crate::feature_passes::FeaturePasses;
 use crate::kernel::flow::DisplacedErrors;

@@ -4,12 +4,13 @@
 
 use foveate_camera::Camera;
 
+use super::receiver;
 use crate::engine::{Engine, LaneCore};
 use crate::lane_engine::{KeptBuffers, LaneEngine};
 use crate::pixels::BorrowedFrame;
 use crate::plan::index;
 use crate::workers::Workers;
-use crate::{BatchScreens, EngineError, FrameOutcome, screens};
+use crate::{BatchScreens, EngineError, FrameOutcome};
 use foveate_pixels::lanes::PixelLane;
 
 /// The number of bytes of the frames of a group, which goes through the engine together. A group is
@@ -102,7 +103,7 @@ fn step_groups<T: PixelLane>(
     outcome: &mut FrameOutcome,
     (outcomes, screens): (&mut [FrameOutcome], Option<&mut BatchScreens<T>>),
 ) {
-    let room = |screens| screens::resize_screens(screens, &core.plan, frames.len());
+    let room = |screens| receiver::resize_screens(screens, &core.plan, frames.len());
     let screens = screens.map_or(&mut [][..], room);
     let Some(first) = frames.first() else { return };
     let bytes = first.width * first.height * size_of::<T>();

@@ -6,12 +6,12 @@ use foveate_camera::{
     VoteCombination,
 };
 
+use super::plan::ZonePlan;
 use crate::kernel::flow::{self, DisplacedErrors};
 use crate::kernel::mad;
 use crate::outcome::RegionResults;
 use crate::plan::CameraPlan;
 use crate::working_memory::RegionSums;
-use crate::zone_plan::ZonePlan;
 use foveate_pixels::lanes::PixelLane;
 
 impl<T: PixelLane> CameraPlan<T> {

@@ -7,13 +7,13 @@ use std::ops::Range;
 
 use foveate_camera::{ReferencePolicy, RegionClass};
 
+use super::change::{ChangeSearch, KnownChanges};
+use super::receiver::KeptScreen;
 use crate::change;
-use crate::change_search::{ChangeSearch, KnownChanges};
 use crate::outcome::{FrameOutcome, split_off};
 use crate::pixels::BorrowedFrame;
 use crate::plan::{CameraPlan, index};
 use crate::policy::{SAMPLE_DISTANCE, SearchPolicy, SearchStep};
-use crate::screens::KeptScreen;
 use crate::state_copy::{EngineState, StateCopy};
 use crate::strip::{BandStrip, KeptStripResults, SkippedWork};
 use crate::workers::Workers;

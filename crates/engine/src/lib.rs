@@ -13,9 +13,7 @@
 
 mod band;
 mod batch;
-mod block_levels;
 mod change;
-mod change_search;
 mod decision;
 mod denoised;
 mod digest;
@@ -32,22 +30,18 @@ mod pixels;
 mod plan;
 mod policy;
 mod receiver;
-mod renderer;
-mod screens;
 mod sent_values;
 mod state_access;
 mod state_copy;
 mod strip;
 mod workers;
 mod working_memory;
-mod zone_plan;
 
 pub use engine::{Engine, EngineOptions};
 pub use error::EngineError;
 pub use events::{EventColumn, EventColumnType, EventFrame, EventTable, EventValue};
 pub use foveate_pixels::lanes::InstructionSet;
 pub use outcome::FrameOutcome;
-pub use receiver::Receiver;
-pub use screens::BatchScreens;
+pub use receiver::{BatchScreens, Receiver};
 pub use state_copy::RegionStateBefore;
 pub use workers::MAX_THREADS;

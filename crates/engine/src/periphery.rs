@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The summaries of irrelevant regions: means of blocks, the decision which of them are sent, and
-//! their place on the screen.
-
-use foveate_camera::RegionAction;
+//! The summaries of irrelevant regions: means of blocks, the decision which of them are sent,
+//! and their place on the screen. The level of each lane, which is the same one for all lanes
+//! unless regions have classes.
 
 use crate::outcome::RegionResults;
-use foveate_pixels::lanes::PixelLane;
+use foveate_camera::RegionAction;
+use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane};
 
 /// The geometry of summaries. A region has q x q blocks of b x b pixels; `blocks` is q and `side`
 /// is b.
@@ -170,4 +170,29 @@ fn show_constant<const SIDE: usize, T: Copy>(means: &[T], row: &mut [T]) {
 #[inline(always)]
 fn sum<T: PixelLane>(columns: &[T::ColumnSum]) -> u32 {
     columns.iter().map(|&column| -> u32 { column.into() }).sum()
+}
+
+/// The levels of the lanes of a run of blocks.
+pub(crate) trait BlockLevels<V>: Copy {
+    /// Returns the level of lane `i` of block `at`.
+    fn level(self, at: usize, i: usize) -> V;
+}
+
+/// One level for all lanes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct UniformLevel<V>(pub(crate) V);
+
+impl<V: Copy> BlockLevels<V> for UniformLevel<V> {
+    #[inline(always)]
+    fn level(self, _at: usize, _i: usize) -> V {
+        self.0
+    }
+}
+
+impl<V: Copy> BlockLevels<V> for &[Block<V>] {
+    #[inline(always)]
+    fn level(self, at: usize, i: usize) -> V {
+        debug_assert!(i < BLOCK_LANES, "a block has {BLOCK_LANES} lanes");
+        self[at][i]
+    }
 }

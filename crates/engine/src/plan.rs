@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A camera in the form that the kernels need: geometry as indices, thresholds as lanes.
-
-use std::ops::Range;
-
-use foveate_camera::{
-    Camera, DenoiseFilter, IrrelevantRendering, Neighborhood, Payload, Periphery, ReferencePolicy,
-    SpatialFeature, VoteCombination,
-};
+//! A camera in the form that the kernels need: geometry as indices, thresholds as lanes. The
+//! thresholds of the classes of regions, in the form that the kernels need.
 
 use crate::feature_passes::{FeaturePasses, FeaturePlan, feature_plans};
 use crate::periphery::PeripheryPlan;
-use crate::zone_plan::ZonePlan;
-use foveate_pixels::{
-    lanes::AlignedBuffer,
-    lanes::{BLOCK_LANES, PixelLane, saturated_threshold},
+use foveate_camera::{
+    Camera, DenoiseFilter, IrrelevantRendering, Neighborhood, Payload, Periphery, ReferencePolicy,
+    RegionClass, SpatialFeature, VoteCombination,
 };
+use foveate_pixels::lanes::{AlignedBuffer, BLOCK_LANES, PixelLane, saturated_threshold};
+use std::ops::Range;
 
 /// The number of blocks in a batch of rows.
 const BATCH_BLOCKS: usize = 32;
@@ -225,4 +220,47 @@ pub(crate) const fn index(value: u32) -> usize {
 /// Converts a pixel to a word. Every pixel fits.
 fn word<T: PixelLane>(pixel: T) -> u16 {
     u16::try_from(pixel.into()).unwrap_or(u16::MAX)
+}
+
+/// The thresholds of the classes of regions that differ from those of the camera.
+#[derive(Clone, Debug)]
+pub(crate) struct ZonePlan<T: PixelLane> {
+    /// The passes with the levels of keen regions. They are the same passes as those of the camera.
+    pub(crate) keen_passes: FeaturePasses<T>,
+    /// The features with the minimum scores of keen regions.
+    pub(crate) keen_features: Vec<FeaturePlan>,
+    /// The level of the temporal score of keen regions.
+    pub(crate) keen_level: T,
+    pub(crate) keen_min_count: u32,
+    keen_summary_level: T,
+    off_summary_level: T,
+}
+
+impl<T: PixelLane> ZonePlan<T> {
+    /// Returns the thresholds of a camera, or `None` if it has no zones.
+    pub(crate) fn from_camera(camera: &Camera) -> Option<Self> {
+        camera.zones()?;
+        let keen = camera.class_thresholds(RegionClass::Keen);
+        let off = camera.class_thresholds(RegionClass::Off);
+        // Without summaries their levels have no meaning.
+        let summary_level = |level: Option<u32>| saturated_threshold(level.unwrap_or(0));
+        Some(Self {
+            keen_passes: FeaturePasses::from_features(keen.features),
+            keen_features: feature_plans(keen.features),
+            keen_level: saturated_threshold(keen.temporal_level),
+            keen_min_count: keen.min_count,
+            keen_summary_level: summary_level(keen.summary_level),
+            off_summary_level: summary_level(off.summary_level),
+        })
+    }
+
+    /// Returns the level of the summaries of a region. `own` is that of the camera.
+    #[inline(always)]
+    pub(crate) fn summary_level(&self, class: RegionClass, own: T) -> T {
+        match class {
+            RegionClass::Normal | RegionClass::Always => own,
+            RegionClass::Off => self.off_summary_level,
+            RegionClass::Keen => self.keen_summary_level,
+        }
+    }
 }

@@ -9,14 +9,14 @@ use std::ops::{AddAssign, Range};
 
 use foveate_camera::{Displacement, RegionClass};
 
+use super::change::KnownChanges;
+use super::receiver::{BandRenderer, keep_screen_band};
 use crate::band::BandPass;
 use crate::change;
-use crate::change_search::KnownChanges;
 use crate::outcome::{RegionResults, cut_to_range};
 use crate::periphery::{CurrentMeans, SentSummaries};
 use crate::pixels::BorrowedFrame;
 use crate::plan::CameraPlan;
-use crate::renderer::{BandRenderer, keep_screen_band};
 use crate::working_memory::WorkingMemory;
 use foveate_pixels::{lanes::PixelLane, lanes::VectorTask};
 

@@ -12,7 +12,6 @@
 mod area;
 mod bus;
 mod cells;
-mod clock;
 mod comparison;
 mod device;
 mod error;
@@ -27,13 +26,11 @@ mod report;
 mod routing;
 mod silicon;
 mod speed;
-mod synthesis;
 mod table;
 
 pub use area::Area;
 pub use bus::{BusArea, PartArea};
 pub use cells::CellKind;
-pub use clock::ClockEstimate;
 pub use comparison::{ComparedDesign, DesignComparison, SkippedDesign};
 pub use device::{DeviceShare, FpgaDevice, XCVU9P};
 pub use error::EstimateError;
@@ -58,5 +55,5 @@ pub use silicon::{
     TimingSense, UnitFigures, check_libraries, gate_netlist, map_to_silicon, map_unit,
     render_silicon_markdown, render_silicon_text,
 };
-pub use speed::{FrameRate, count_to_f64, most_clocks_per_frame};
+pub use speed::{ClockEstimate, FrameRate, count_to_f64, most_clocks_per_frame};
 pub use table::{ReportTable, header, wrap};

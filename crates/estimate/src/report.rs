@@ -3,9 +3,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::speed::ClockEstimate;
 use crate::area::Area;
 use crate::bus::BusArea;
-use crate::clock::ClockEstimate;
 use crate::device::{DeviceShare, FpgaDevice};
 use crate::error::EstimateError;
 use crate::logic_levels::LogicPath;

@@ -13,8 +13,8 @@ use foveate_tools::{Cache, Toolchain, sources_sha256};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::store::synthesis_progress;
 use crate::ExploreError;
-use crate::progress::synthesis_progress;
 
 /// The area of a design, as Yosys estimates it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

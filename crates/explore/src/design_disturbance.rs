@@ -8,10 +8,10 @@ use foveate_camera::CameraConfig;
 use foveate_media::{InputOptions, RunHooks};
 use serde::Serialize;
 
+use super::store::measuring_progress;
 use crate::error_source::SourceVariants;
 use crate::footage::ExplorationFootage;
 use crate::measure::CameraMeasurement;
-use crate::progress::measuring_progress;
 use crate::row::{bytes_per_frame, count_to_f64};
 use crate::{Disturbance, ErrorSourceRow, ExploreError};
 

@@ -8,8 +8,8 @@ use foveate_media::RunMonitor;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
+use super::store::load_progress;
 use crate::footage::ExplorationFootage;
-use crate::progress::load_progress;
 use crate::store::{MeasurementStore, load_key};
 use crate::{DesignSpace, ExploreError};
 

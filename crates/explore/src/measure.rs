@@ -1,23 +1,27 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The measurement of a clip: the frames go once through the ideal camera, and through the engine
-//! of every camera.
+//! The measurement of a clip: the frames go once through the ideal camera, and through the
+//! engine of every camera. The number of ground-truth objects of which a camera sends at least
+//! half. A comparison of one camera with an ideal camera over one clip or data set, without a
+//! folder or a Pareto front.
 
-use std::ops::Range;
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
-use std::thread;
-
+use crate::disturbance::{ClipDisturbance, FrameDisturbance};
+use crate::{Disturbance, ExploreError};
 use foveate_camera::{Camera, CameraConfig};
 use foveate_engine::Engine;
 use foveate_ideal::{IdealCamera, IdealOutcome};
-use foveate_measure::{CandidateFrame, DecisionAreas, ErrorTally, Fidelity, FrameOrder};
-use foveate_media::{ClipPlayer, FrameDepths, PlayedFrame, RunClips, RunMonitor, SourceKind};
+use foveate_measure::{
+    CandidateFrame, DecisionAreas, ErrorTally, Fidelity, FidelityFigures, FrameOrder,
+};
+use foveate_media::boxes::RegionGrid;
+use foveate_media::{
+    ClipPlayer, FrameDepths, PlayedFrame, RunClips, RunHooks, RunMonitor, SourceKind,
+};
 use foveate_pixels::Rect;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
-
-use crate::disturbance::{ClipDisturbance, FrameDisturbance};
-use crate::objects::ObjectCounts;
-use crate::{Disturbance, ExploreError};
+use std::ops::Range;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread;
 
 /// The number of frames that are ready before the engines need them.
 const FRAMES_AHEAD: usize = 2;
@@ -236,13 +240,75 @@ pub(crate) fn frame_order(frame: &PlayedFrame) -> FrameOrder {
     }
 }
 
+/// Counts of objects over frames.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub(crate) struct ObjectCounts {
+    all: u64,
+    /// The number of objects of which at least half of the regions are active.
+    sent: u64,
+}
+
+impl ObjectCounts {
+    pub(crate) fn add_frame(&mut self, camera: &Camera, objects: &[Rect], active: &[bool]) {
+        let (side, width, height) = (camera.region_size(), camera.width(), camera.height());
+        let grid = RegionGrid { side, width, height };
+        for object in objects {
+            let (yes, regions) = grid.count_votes(object, active);
+            self.all += 1;
+            self.sent += u64::from(2 * yes >= regions);
+        }
+    }
+
+    pub(crate) fn merge(&mut self, other: Self) {
+        self.all += other.all;
+        self.sent += other.sent;
+    }
+
+    /// Returns the share that is sent; `None` if there are no objects.
+    pub(crate) fn recall(self) -> Option<f64> {
+        #[allow(clippy::cast_precision_loss, reason = "exact up to 2^53")]
+        (self.all > 0).then(|| self.sent as f64 / self.all as f64)
+    }
+}
+
+/// The errors of a camera over a clip.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CameraComparison {
+    /// The errors against the ideal camera.
+    pub figures: FidelityFigures,
+    /// The reason why the clip ended early, if it did.
+    pub problem: Option<String>,
+}
+
+/// Compares the camera `config` with the ideal camera of `ideal` over the frames of a player, which
+/// was opened for `ideal`.
+///
+/// # Errors
+/// Fails if the clip cannot be read, if a configuration is not valid for its frames, or if `hooks`
+/// cancels.
+pub fn compare(
+    player: ClipPlayer,
+    config: &CameraConfig,
+    ideal: &CameraConfig,
+    hooks: &dyn RunHooks,
+) -> Result<CameraComparison, ExploreError> {
+    let (width, height) = player.size();
+    let camera = config.validate_for_frames(width, height)?;
+    let monitor = &RunMonitor::of_frames(hooks, player.frames());
+    let clips = &RunClips::from_player(player, &[])?;
+    let parts = std::slice::from_ref(&(0..u64::MAX));
+    let clip = MeasuredClip { clips, clip: 0, ideal, parts, disturbance: None, monitor };
+    let measured = clip.measure(&[camera])?.pop().and_then(|mut parts| parts.pop());
+    let CameraMeasurement { tally, problem, .. } =
+        measured.expect("one camera and one part are measured");
+    Ok(CameraComparison { figures: tally.figures(), problem })
+}
+
 #[cfg(test)]
 mod tests {
-    use std::sync::atomic::{AtomicUsize, Ordering};
-
-    use foveate_media::{InputOptions, PlaybackError, RunHooks, RunProgress};
-
     use super::*;
+    use foveate_media::{InputOptions, PlaybackError, RunHooks, RunProgress};
+    use std::sync::atomic::{AtomicUsize, Ordering};
 
     /// Hooks that cancel after they have been asked a number of times.
     struct PatientHooks {

@@ -2,10 +2,8 @@
 //! The page of an exploration. It needs no script to be read, and loads nothing.
 
 mod card;
-mod colour;
 mod scatter;
 mod setting;
-mod summary;
 mod table;
 mod threshold;
 
@@ -24,7 +22,7 @@ use foveate_output::page::{
 
 use crate::{DesignFront, DesignRow, Exploration, ExploreError};
 use card::PointCard;
-use colour::PointGrouping;
+use scatter::PointGrouping;
 use setting::PointSettings;
 
 /// The most points that a page shows; with more it would be too large to open.
@@ -78,14 +76,14 @@ pub(crate) fn render_page(exploration: &Exploration) -> Result<String, ExploreEr
     let settings = PointSettings::new(exploration);
     let rows = points_shown(&exploration.rows);
     let has_synthesis = exploration.rows.iter().any(|row| row.silicon.is_some());
-    let groupings = colour::groupings(&settings, &rows);
+    let groupings = scatter::groupings(&settings, &rows);
     let titles: Vec<String> = rows.iter().map(|row| card::mark_title(row, &settings)).collect();
     let mut plots = scatter::plots(exploration, &rows, &groupings, &titles);
     plots.extend(threshold::plots(&settings, &rows, &titles));
     let (columns, lines) = table::columns_and_rows(&settings, &rows);
     let about = AboutSection {
         clips: &exploration.clips,
-        clip_names: summary::clips(exploration),
+        clip_names: table::clips(exploration),
         camera: setting::camera_line(&exploration.ideal),
         ideal: exploration.ideal.trim_end(),
         findings: exploration.findings(),
@@ -108,7 +106,7 @@ pub(crate) fn render_page(exploration: &Exploration) -> Result<String, ExploreEr
         cards: rows.iter().map(|row| PointCard::new(row, &settings)).collect(),
         hidden: exploration.rows.len() - rows.len(),
     };
-    let title = summary::title(exploration);
+    let title = table::title(exploration);
     let failed =
         |error: askama::Error| PageError { page: title.clone(), problem: error.to_string() };
     let awaited = (exploration.awaited_areas > 0).then(|| {
@@ -127,7 +125,7 @@ pub(crate) fn render_page(exploration: &Exploration) -> Result<String, ExploreEr
             PageNotice { title: "Not complete", lines: &exploration.problems },
             PageNotice { title: "Not finished", lines: awaited.as_slice() },
         ],
-        facts: &summary::facts(exploration),
+        facts: &table::facts(exploration),
         about: &about.render().map_err(failed)?,
         main: &main.render().map_err(failed)?,
         footer: FOOTER,

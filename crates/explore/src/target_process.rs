@@ -11,9 +11,9 @@ use foveate_media::{PlaybackError, RunClips, RunHooks};
 use rayon::prelude::*;
 use serde::Serialize;
 
+use super::store::{energy_progress, mapping_progress};
 use crate::ExploreError;
 use crate::cost::{ResultsByRtl, Synthesizer};
-use crate::progress::{energy_progress, mapping_progress};
 use crate::store::EnergyStore;
 
 /// The frames per second for which powers are given if no rate is wanted.

@@ -15,8 +15,8 @@ use foveate_media::{RunHooks, input_without_secrets};
 use foveate_tools::write_file;
 use serde::{Deserialize, Serialize};
 
-use crate::exploration_work::ExplorationWork;
-use crate::folder::{UNITS_FOLDER, check_folder, claim_folder};
+use super::explore::ExplorationWork;
+use super::store::{UNITS_FOLDER, check_folder, claim_folder};
 use crate::footage::{CAMERAS_PER_UNIT, MeasurementCount};
 use crate::link_load::LoadMeasurement;
 use crate::store::{MeasurementStore, key_of};

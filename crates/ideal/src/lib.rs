@@ -13,16 +13,13 @@ mod binomial;
 mod camera;
 mod error;
 mod feature;
-mod grid;
 mod median;
 mod memory;
-mod outcome;
 mod periphery;
 mod plane;
 mod rules;
 mod switching;
 mod view;
 
-pub use camera::IdealCamera;
+pub use camera::{IdealCamera, IdealOutcome};
 pub use error::IdealError;
-pub use outcome::IdealOutcome;

@@ -4,7 +4,7 @@
 
 use foveate_camera::{Camera, ReferencePolicy, RegionAction};
 
-use crate::grid::RegionGrid;
+use super::plane::RegionGrid;
 use crate::plane::PaddedPlane;
 use crate::view::{FrameView, RegionReferences};
 

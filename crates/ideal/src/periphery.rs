@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use foveate_camera::{Camera, RegionAction};
 
-use crate::grid::{RegionGrid, to_index};
+use super::plane::{RegionGrid, to_index};
 use crate::plane::PaddedPlane;
 
 /// The blocks of a periphery, and the summary that the screen shows of every region.

@@ -2,7 +2,7 @@
 //! The view of a frame that every score gets: the denoised pixels, and the references of the
 //! regions. A new score can use all of it.
 
-use crate::grid::RegionGrid;
+use super::plane::RegionGrid;
 use crate::plane::PaddedPlane;
 
 /// A denoised frame and the references that it is compared with.

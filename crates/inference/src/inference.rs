@@ -2,17 +2,17 @@
 //! A run: every frame of some clips goes through a camera and a network, and the results go to one
 //! folder.
 
+use super::clip_playback::KeptClips;
+use super::run::{ExecutorMode, NetworkRunner};
 use crate::camera::CameraSetup;
 use crate::charts::{ChartWithIds, charts};
 use crate::clip_playback::ClipPlayback;
 use crate::cost::NodeCosts;
 use crate::frame::counted_frames;
-use crate::kept_clips::KeptClips;
 use crate::layer_frame_table::LayerFrameTable;
 use crate::page::render_page;
 use crate::recording::{OutputRecorder, RecordOptions};
 use crate::run::{FinishedRun, InferenceRun, RunComparisons, RunFiles, RunMetadata};
-use crate::runner::{ExecutorMode, NetworkRunner};
 use crate::summary::InferenceSummary;
 use crate::table_columns::{FRAMES, LAYERS, TRIALS, detection_table, table};
 use crate::tuning::{TunedLimits, tune};

@@ -5,12 +5,12 @@
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
+use super::computation::PositionCounts;
+use super::cost::TrafficTally;
 use crate::InferenceError;
 use crate::cost::{FrameCost, NodeCosts};
 use crate::frame::{FrameFigures, LayerFigures};
-use crate::positions::PositionCounts;
 use crate::summary::mask_bytes;
-use crate::traffic::TrafficTally;
 use ColumnType::{Flag, Long, Real, Text};
 use foveate_network::Network;
 use foveate_output::tables::{Column, ColumnType, ParquetWriter, TableValue};

@@ -16,23 +16,15 @@ mod cost;
 mod error;
 mod frame;
 mod inference;
-mod kept_clips;
 mod layer_frame_table;
-mod macs;
 mod network_check;
 mod option_parsers;
 mod page;
-mod positions;
 mod recording;
 mod run;
-mod runner;
 mod summary;
-mod sums;
 mod table_columns;
-mod tally;
-mod traffic;
 mod tuning;
-mod whole_computation;
 mod whole_frames;
 
 pub use arrays::{ArrayFile, ArraySummary, infer_arrays, is_array};
@@ -44,19 +36,19 @@ pub use error::InferenceError;
 pub use network_check::{NetworkFacts, NetworkReport, OPEN_SIZE, check_network};
 pub use option_parsers::{parse_goal, parse_mode, parse_noise, read_accelerator};
 // Types that appear in the interface of this crate.
+pub use computation::Macs;
+pub use cost::FrameTraffic;
 pub use foveate_network::vision::{
     ClassAgreement, Detection, DetectionAgreement, DetectionCounts, DetectionFormat, Detector,
     FrameOutcome, Framing, OutputAgreement, OutputTensor, PixelMapping, VisionError, VisionNetwork,
     VisionOptions, VisionRun, parse_detector, parse_framing, parse_mean, parse_scale,
 };
 pub use inference::{INFERENCE_FOLDER, Inference, InferenceOptions};
-pub use macs::Macs;
 pub use recording::{RecordOptions, RecordedOutput};
 pub use summary::{
     ClipSummary, InferenceSummary, LayerSummary, OutputCloseness, TuningSummary, TuningTrial,
     WholeComputationError,
 };
-pub use traffic::FrameTraffic;
 pub use whole_frames::{
     ConfidenceIntervals, GaussianNoise, GroundTruthFigures, NOISE_LEVELS, NoiseAgreement,
     NoiseComparison, WholeFrameAgreement, has_class_map, wilson_interval,

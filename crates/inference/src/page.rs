@@ -2,10 +2,7 @@
 //! The page of a run: its setup, its savings, charts, tables, and the command that repeats it. The
 //! page needs no script to be read, and loads nothing.
 
-mod command_line;
 mod figures;
-mod frame_pictures;
-mod plots;
 mod rows;
 mod sentences;
 #[cfg(test)]
@@ -44,7 +41,7 @@ struct AboutSection {
 #[template(path = "main.html")]
 struct MainSections<'a> {
     /// The frames with detections, if the network finds objects.
-    shots: Option<frame_pictures::FramePictures>,
+    shots: Option<figures::FramePictures>,
     plots: Vec<PagePlot>,
     /// The table of clips, if there are several.
     clips: Option<SortableTable<'a>>,
@@ -101,14 +98,14 @@ pub(crate) fn render_page(
         shots: shots.is_some_and(|shots| !shots.screens().is_empty()),
     };
     let main = MainSections {
-        shots: shots.map(frame_pictures::frame_pictures).transpose()?.flatten(),
-        plots: charts.iter().map(|drawn| plots::plot(drawn, &titles, &note)).collect(),
+        shots: shots.map(figures::frame_pictures).transpose()?.flatten(),
+        plots: charts.iter().map(|drawn| figures::plot(drawn, &titles, &note)).collect(),
         clips: (summary.clips.len() > 1).then(|| clips.table("number of the clip")),
         layers: layers.table("number of the layer"),
         tried: summary.tuning.is_some().then(|| tried.table("number of the run")),
         frames: is_counted.then(|| rows.table("number of the frame")),
         every,
-        command: command_line::shell_command(command),
+        command: sentences::shell_command(command),
         camera: sentences::camera_text(design),
         toml: design.config().to_toml(),
         fingerprint: design.fingerprint(),

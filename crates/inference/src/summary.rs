@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The summary of a run, and its tables.
 
+use super::computation::{Macs, PositionCounts, WholeComputation};
+use super::cost::FrameTraffic;
 use crate::closeness::ClosenessTally;
 use crate::cost::{AcceleratorSummary, FrameCost, NodeCosts};
-use crate::macs::Macs;
-use crate::positions::PositionCounts;
-use crate::traffic::FrameTraffic;
-use crate::whole_computation::WholeComputation;
 use crate::{Computation, Framing, PixelMapping, RecordedOutput, WholeFrameAgreement};
 use foveate_design::DesignConfig;
 use foveate_network::{Executor, Network, TensorForm};

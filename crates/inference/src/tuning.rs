@@ -7,12 +7,11 @@
 //! room for the next step: from front to back, each node's limit is doubled as long as the goal is
 //! reached and fewer MACs are needed.
 
+use super::clip_playback::ClipPart;
+use super::computation::{Macs, PositionCounts, macs_of_layers};
+use super::run::{ExecutorMode, NetworkRunner};
 use crate::InferenceError;
 use crate::closeness::{ClosenessTally, TuningGoal};
-use crate::kept_clips::ClipPart;
-use crate::macs::{Macs, macs_of_layers};
-use crate::positions::PositionCounts;
-use crate::runner::{ExecutorMode, NetworkRunner};
 use crate::summary::{TuningSummary, TuningTrial};
 use foveate_media::{PlaybackError, RunHooks, RunProgress};
 use foveate_network::{ExecutionMode, Executor, Network};

@@ -6,8 +6,8 @@ use foveate_engine::FrameOutcome;
 use foveate_ideal::IdealOutcome;
 use foveate_pixels::{ByteFrame, FramePixels};
 
+use super::sample::FrameConverter;
 use crate::areas::{DecisionAreas, DecisionState, FrameOrder, NO_AREAS};
-use crate::converter::FrameConverter;
 use crate::overlap::GridCells;
 use crate::sample::PixelSample;
 use crate::scores::ScorePair;

@@ -3,8 +3,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::sample::{count_to_f64, ratio};
 use crate::ErrorTally;
-use crate::fixed_point::{count_to_f64, ratio};
 use crate::scores::ScoreTally;
 
 /// The distance of a candidate from the ideal. Shares are of the area (pixels times frames), 0..=1.

@@ -9,29 +9,24 @@
 #![forbid(unsafe_code)]
 
 mod areas;
-mod converter;
 mod error;
 mod fidelity;
 mod figures;
-mod fixed_point;
 mod overlap;
 mod sample;
 mod scores;
 mod screens;
 mod similarity;
-mod ssim;
 mod staleness;
 pub mod stress;
-mod tally;
 mod threshold_table;
 
 pub use areas::{ActiveAreas, DecisionAreas, DecisionState, FrameOrder};
 pub use error::FidelityError;
 pub use fidelity::{CandidateFrame, Fidelity};
 pub use figures::{FidelityFigures, ScoreError, Staleness};
-pub use overlap::GridCells;
+pub use overlap::{ErrorTally, GridCells};
 pub use similarity::FrameSimilarity;
-pub use tally::ErrorTally;
 pub use threshold_table::{
     ChosenSteps, DecisionLimits, MinimumChoice, MinimumSteps, ThresholdTable,
 };

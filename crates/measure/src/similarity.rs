@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The PSNR and SSIM of a receiver's frames against the original, without a camera.
 
+use super::sample::ComparedFrames;
 use crate::FidelityError;
-use crate::converter::ComparedFrames;
 use crate::screens::{ScreenComparison, ScreenTally};
 
 /// A comparison of frames of one size with 8 bits per pixel.

@@ -4,7 +4,7 @@
 use foveate_camera::Camera;
 use serde::{Deserialize, Serialize};
 
-use crate::fixed_point::ratio;
+use super::sample::ratio;
 use crate::sample::PixelSample;
 
 /// The staleness, summed over frames.

@@ -12,8 +12,8 @@ use foveate_camera::{
 };
 use foveate_engine::FrameOutcome;
 
+use super::sample::count_to_f64;
 use crate::areas::{DecisionAreas, DecisionState, FrameOrder};
-use crate::fixed_point::count_to_f64;
 use crate::overlap::GridCells;
 
 /// The most steps of a minimum.

@@ -11,9 +11,7 @@ mod error;
 mod exclusions;
 mod file;
 mod format;
-mod grid;
 mod image_name;
-mod labelled_box;
 mod limits;
 mod view;
 
@@ -21,7 +19,5 @@ pub use assignment::{ClipToLabel, assign_boxes};
 pub use error::BoxError;
 pub use file::{BoxFile, FrameBoxes, FrameKey};
 pub use format::BoxFormat;
-pub use grid::RegionGrid;
-pub use labelled_box::LabelledBox;
 pub use limits::MAX_BOXES;
-pub use view::BoxView;
+pub use view::{BoxView, LabelledBox, RegionGrid};

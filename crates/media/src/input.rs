@@ -12,10 +12,9 @@ mod pattern;
 mod sequence;
 mod skip_reason;
 mod skipped_entries;
-mod zip_feed;
 mod zip_listing;
 
-use self::zip_feed::open_zip;
+use self::zip_listing::open_zip;
 use content_kind::is_archive_start;
 pub(crate) use content_kind::unread_image_type_by_content;
 pub(crate) use entry::{EntryKind, entries, entry_kind};

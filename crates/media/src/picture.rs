@@ -13,7 +13,6 @@ mod bmp;
 mod conversion;
 mod damage;
 mod jpeg;
-mod outline;
 mod png;
 mod pnm;
 mod stream;

@@ -11,7 +11,7 @@
 //!   repeating or dropping frames.
 //! * Only [`formats`] that hold their frames themselves are read: a file that is a list of other
 //!   files is refused.
-//! * A late start uses a seek if that gives the same frames, see [`late_start`].
+//! * A late start uses a seek if that gives the same frames, see [`clock`].
 //! * Rotation is ignored, as is the EXIF orientation of images, unless [`Orientation::Upright`] is
 //!   wanted. Frames are turned here, because the filters of ffmpeg do not turn all pixel formats.
 
@@ -19,11 +19,8 @@ mod clock;
 mod decoder;
 mod ffmpeg_log;
 mod formats;
-mod late_start;
 mod pixel_formats;
 mod probe;
-mod streams;
-mod truncated_avi;
 
 use std::path::{Path, PathBuf};
 
@@ -190,7 +187,7 @@ impl VideoFeed {
             conversion,
             interrupt,
         };
-        let sought = late_start::start(&tools, &ffmpeg, &probe, start_us)?;
+        let sought = clock::start(&tools, &ffmpeg, &probe, start_us)?;
         let is_sought = sought.is_some();
         let (decoder, first_pts) = match sought {
             Some(sought) => (sought.decoder, Some(sought.first_pts)),
@@ -243,13 +240,13 @@ impl VideoFeed {
         let mut problem = self.decoder.finish()?;
         if problem.is_none()
             && let Some(missing) = self.decoder.missing_reference()
-            && (self.is_sought || late_start::begins_cleanly(&self.ffmpeg, &self.codec)?)
+            && (self.is_sought || clock::begins_cleanly(&self.ffmpeg, &self.codec)?)
         {
             problem = Some(missing);
         }
         match &self.medium {
             VideoMedium::File(path) => {
-                problem = truncated_avi::truncation_problem(path).or(problem);
+                problem = probe::truncation_problem(path).or(problem);
             }
             // Messages of ffmpeg repeat the address and its parts.
             VideoMedium::Network(address) => problem = problem.map(|text| address.redact(&text)),

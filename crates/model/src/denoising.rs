@@ -5,8 +5,8 @@ use std::ops::Range;
 
 use foveate_camera::Camera;
 
+use super::region::FrameRegion;
 use crate::region::{RegionArea, black_padded_frame};
-use crate::region_view::FrameRegion;
 use crate::window_filter::filtered_pixel;
 use foveate_pixels::Frame;
 

@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The functional model: an RCM and its renderer, one whole frame at a time. It is the reference
-//! for all other models.
+//! The functional model: an RCM and its renderer, one whole frame at a time. It is the
+//! reference for all other models. The screen: the pixels of each region after its action.
 
-use foveate_camera::{
-    Camera, ClassThresholds, Displacement, Payload, RegionAction, RegionClass, SpatialFeature,
-};
-
+use super::region::{FrameRegion, combine_votes};
 use crate::ModelError;
 use crate::conversions::index;
-use crate::decision::combine_votes;
 use crate::denoising::denoise_into;
 use crate::feature::flow::flow_match;
 use crate::feature::score;
 use crate::periphery::{ShownSummary, block_means, no_summaries};
-use crate::region::{RegionArea, black_frame, black_padded_frame, check_frame_kind, pad_into};
-use crate::region_view::FrameRegion;
-use crate::screen::Screen;
+use crate::region::{
+    RegionArea, black_frame, black_padded_frame, check_frame_kind, crop_into, pad_into,
+};
 use crate::temporal::{RegionReferences, changed_pixels};
+use foveate_camera::{
+    Camera, ClassThresholds, Displacement, Payload, RegionAction, RegionClass, SpatialFeature,
+};
 use foveate_pixels::Frame;
 
 /// The results of one frame. Regions are numbered row by row.
@@ -273,5 +272,46 @@ impl FunctionalCamera {
         outcome.actions[at] = action;
         screen.show_region(camera, region, action, (outcome.payload(camera), means));
         references.update(camera, &outcome.denoised, region, action);
+    }
+}
+
+/// The rendered regions with padding. The screen is black before the first frame.
+#[derive(Clone, Debug)]
+pub(crate) struct Screen(Frame);
+
+impl Screen {
+    /// Makes a black screen.
+    pub(crate) fn black(camera: &Camera) -> Self {
+        Self(black_padded_frame(camera))
+    }
+
+    /// Renders one region of a frame with the forwarded pixels `payload` and the means `means`.
+    pub(crate) fn show_region(
+        &mut self,
+        camera: &Camera,
+        region: u32,
+        action: RegionAction,
+        (payload, means): (&Frame, &[u16]),
+    ) {
+        let area = RegionArea::from_region(camera, region);
+        match action {
+            RegionAction::Forward => area.copy(payload, &mut self.0),
+            RegionAction::Hold => {}
+            RegionAction::Blank => area.blank(&mut self.0),
+            RegionAction::Summarize => {
+                let periphery = camera.periphery().expect("who sends a summary has a periphery");
+                area.fill_blocks(periphery, means, &mut self.0);
+            }
+        }
+    }
+
+    /// Shows a whole frame, which has the size of the screen without padding.
+    pub(crate) fn show_frame(&mut self, frame: &Frame) {
+        pad_into(frame, &mut self.0);
+    }
+
+    /// Copies the screen without padding to `rendered`.
+    pub(crate) fn crop_into(&self, rendered: &mut Frame) {
+        crop_into(&self.0, rendered);
     }
 }

@@ -4,8 +4,8 @@
 
 use foveate_camera::{Camera, IrrelevantRendering, Periphery, RegionAction};
 
+use super::region::region_action;
 use crate::conversions::index;
-use crate::decision::region_action;
 use crate::region::RegionArea;
 use foveate_pixels::Frame;
 

@@ -3,9 +3,9 @@
 
 use foveate_camera::{Camera, FeatureKind, RegionClass};
 
+use super::region::combine_votes;
 use crate::RegionScorer;
 use crate::conversions::index;
-use crate::decision::combine_votes;
 use crate::thresholds::ClassThresholdInputs;
 
 /// The scores and the decision of one region in one frame.

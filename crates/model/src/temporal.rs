@@ -4,9 +4,9 @@
 
 use foveate_camera::{Camera, ReferencePolicy};
 
+use super::region::RegionView;
 use crate::conversions::{count_true, index};
 use crate::region::{RegionArea, black_padded_frame};
-use crate::region_view::RegionView;
 use foveate_camera::RegionAction;
 use foveate_pixels::Frame;
 

@@ -3,9 +3,9 @@
 //! neighbors in memory, in vector lanes, because this comparison is the only extra cost of the
 //! modes that compare.
 
+use super::tensor::TensorForm;
 use crate::mask::Mask;
 use crate::tensor::for_each_run;
-use crate::tensor_form::TensorForm;
 use crate::values::TensorNumber;
 
 /// The positions that are compared in all channels before the next ones, so that their marks stay

@@ -2,11 +2,11 @@
 //! Runs a network once on arrays, without a camera, so that its outputs can be compared with those
 //! of other programs.
 
+use super::executor::OptionalInstant;
 use crate::error::NetworkError;
 use crate::executor::{ExecutionMode, Executor};
 use crate::mask::Mask;
 use crate::onnx::TensorProto;
-use crate::optional_instant::OptionalInstant;
 use crate::reader::{OpenFile, read_for_arrays};
 use std::path::Path;
 use std::time::Duration;

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Runs a network frame by frame, and recomputes only what may have changed.
+//! Runs a network frame by frame, and recomputes only what may have changed. A start time that
+//! also exists where there is no clock.
 
+use super::tensor::TensorForm;
 use crate::comparison::{changed_positions, copy_positions};
 use crate::element::{ElementType, with_element_type};
 use crate::mask::Mask;
 use crate::network::Network;
 use crate::operator::OperatorJob;
-use crate::optional_instant::OptionalInstant;
 use crate::tensor::Tensor;
-use crate::tensor_form::TensorForm;
 use crate::values::{TensorNumber, TensorValues};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// The positions that are computed for each frame after the first. The first frame is always
 /// computed densely.
@@ -295,12 +295,29 @@ impl<'a> Executor<'a> {
     }
 }
 
+/// A point in time. WebAssembly without an operating system has no clock, and asking for the time
+/// would stop the program. On that target all durations are 0.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OptionalInstant(Option<Instant>);
+
+impl OptionalInstant {
+    pub(crate) fn now() -> Self {
+        let has_clock = !cfg!(all(target_family = "wasm", target_os = "unknown"));
+        Self(has_clock.then(Instant::now))
+    }
+
+    /// The time since this point.
+    pub(crate) fn elapsed(self) -> Duration {
+        self.0.map_or(Duration::ZERO, |start| start.elapsed())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::input_layout::InputLayout;
     use crate::mask::AxisWindow;
     use crate::operator::{Operator, position_union};
+    use crate::tensor::InputLayout;
     use std::sync::Arc;
 
     /// A 3x3 window that moves by two rows and columns, with a padding of 1.

@@ -2,12 +2,11 @@
 //! A network: operators in topological order, so that each comes after those whose outputs it
 //! takes.
 
+use super::tensor::{InputLayout, MAX_AXES, TensorForm, checked_element_count};
 use crate::element::Encoding;
 use crate::error::NetworkError;
-use crate::input_layout::InputLayout;
 use crate::mask::Mask;
 use crate::operator::{Operator, ProductKind};
-use crate::tensor_form::{MAX_AXES, TensorForm, checked_element_count};
 use std::sync::Arc;
 
 /// The largest number of values of a tensor.

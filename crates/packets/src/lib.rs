@@ -9,7 +9,6 @@
 
 mod error;
 mod frame_assembler;
-mod frame_clock;
 mod frame_info;
 mod packet;
 mod packet_layout;
@@ -18,11 +17,9 @@ pub mod packet_writer;
 mod received_frame;
 mod register_command;
 mod stream_loss;
-mod word_fields;
 
 pub use error::PacketError;
 pub use frame_assembler::FrameAssembler;
-pub use frame_clock::{FrameClock, FrameTime, LONGEST_GAP_SECONDS};
 pub use frame_info::FrameInfo;
 pub use packet::{
     EndPacket, FlowPacket, Packet, RegionDecision, RegionFlags, RegionPacket, RegisterPacket,
@@ -30,6 +27,8 @@ pub use packet::{
 };
 pub use packet_layout::{MAGIC, PacketLayout, VERSION};
 pub use packet_splitter::{PacketSplitter, StreamItem};
-pub use received_frame::{ReceivedFrame, RegionContent};
+pub use received_frame::{
+    FrameClock, FrameTime, LONGEST_GAP_SECONDS, ReceivedFrame, RegionContent,
+};
 pub use register_command::RegisterCommand;
 pub use stream_loss::StreamLoss;

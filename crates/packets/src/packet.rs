@@ -3,12 +3,12 @@
 
 use foveate_camera::Displacement;
 
+use super::packet_layout::{bits8, bits16, bits32, index, word};
 use crate::FrameInfo;
 use crate::packet_layout::{
     END_WORDS, FRAME_WORDS, HEAD_AND_TAIL_WORDS, MAGIC, MARK, PacketLayout, REGISTER_WORDS,
     WORD_BYTES,
 };
-use crate::word_fields::{bits8, bits16, bits32, index, word};
 
 /// The decision of a region.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The lengths of the packets of a design, and the ranges of their fields.
+//! The lengths of the packets of a design, and the ranges of their fields. The fields of the
+//! 64-bit words that all packets consist of.
 
+use crate::{FrameInfo, PacketError};
 use foveate_camera::{Camera, IrrelevantRendering, Payload, SpatialFeature};
 use foveate_design::Design;
-
-use crate::word_fields::{checked_field, checked_u8, checked_u16, index};
-use crate::{FrameInfo, PacketError};
+use std::ops::RangeInclusive;
 
 /// The version of the format, in every FRAME.
 pub const VERSION: u16 = 1;
@@ -245,4 +245,58 @@ fn packet_bytes(amount: usize, in_word: usize) -> usize {
 fn fingerprint_number(design: &Design) -> u64 {
     let digits = design.fingerprint();
     u64::from_str_radix(&digits, 16).unwrap_or_else(|_| unreachable!("16 digits, not {digits}"))
+}
+
+/// Returns the word at the beginning of these bytes; `None` if there are fewer than eight.
+pub(crate) fn word(bytes: &[u8]) -> Option<u64> {
+    bytes.first_chunk().map(|bytes| u64::from_le_bytes(*bytes))
+}
+
+/// Returns sixteen bits of a word, from bit `from` on.
+pub(crate) fn bits16(word: u64, from: u32) -> u16 {
+    let [a, b, ..] = (word >> from).to_le_bytes();
+    u16::from_le_bytes([a, b])
+}
+
+/// Returns eight bits of a word, from bit `from` on.
+pub(crate) fn bits8(word: u64, from: u32) -> u8 {
+    (word >> from).to_le_bytes()[0]
+}
+
+/// Returns 32 bits of a word, from bit `from` on.
+pub(crate) fn bits32(word: u64, from: u32) -> u32 {
+    let [a, b, c, d, ..] = (word >> from).to_le_bytes();
+    u32::from_le_bytes([a, b, c, d])
+}
+
+/// Converts a number to an index. This is lossless, because `usize` has at least 32 bits on every
+/// machine that can hold a frame.
+pub(crate) const fn index(value: u32) -> usize {
+    value as usize
+}
+
+pub(crate) fn checked_field(
+    field: &'static str,
+    value: u64,
+    range: RangeInclusive<u64>,
+) -> Result<u64, PacketError> {
+    let (&least, &most) = (range.start(), range.end());
+    range.contains(&value).then_some(value).ok_or(PacketError::FieldOutOfRange {
+        field,
+        value,
+        least,
+        most,
+    })
+}
+
+/// Returns the number if a field of 16 bits can hold it.
+pub(crate) fn checked_u16(name: &'static str, value: u64) -> Result<u16, PacketError> {
+    let value = checked_field(name, value, 0..=u16::MAX.into())?;
+    Ok(u16::try_from(value).unwrap_or(u16::MAX))
+}
+
+/// Returns the number if a field of 8 bits can hold it.
+pub(crate) fn checked_u8(name: &'static str, value: u32) -> Result<u8, PacketError> {
+    let value = checked_field(name, value.into(), 0..=u8::MAX.into())?;
+    Ok(u8::try_from(value).unwrap_or(u8::MAX))
 }

@@ -4,6 +4,7 @@
 
 use foveate_camera::Displacement;
 
+use super::packet_layout::{checked_field, checked_u16};
 use crate::packet::{
     END_TYPE, FLOW_TYPE, FRAME_TYPE, REGION_TYPE, REGISTER_TYPE, ROW_TYPE, SCORES_TYPE,
 };
@@ -11,7 +12,6 @@ use crate::packet_layout::{
     END_WORDS, FRAME_WORDS, HEAD_AND_TAIL_WORDS, MAGIC, MARK, PacketLayout, REGISTER_WORDS,
     WORD_BYTES,
 };
-use crate::word_fields::{checked_field, checked_u16};
 use crate::{EndPacket, PacketError, RegionDecision, RegionFlags, RegisterPacket};
 
 /// Appends the FRAME of frame `number`. The time is in ticks. In a design with zones, the frame uses

@@ -14,7 +14,6 @@ mod active_groups;
 mod batch;
 mod error;
 mod explanation;
-mod losses;
 mod output;
 mod recording;
 mod simulation;

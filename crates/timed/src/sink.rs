@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The sink of forwarded words, as a source of stalls.
+//! The sink of forwarded words, as a source of stalls. The description of a sink, from which
+//! any number of equal sinks can be made. The frames that a source delivers, with the clocks at
+//! which it offers their beats.
 
+use foveate_pixels::FramePixels;
 use std::fmt::Debug;
 use std::ops::Range;
-
-use crate::delivery::NEVER;
+use std::sync::Arc;
 
 /// A sink of forwarded words. A stall is a range of edges at which `forward_ready_i` is 0. Only a
 /// raster core waits for its sink.
@@ -91,6 +93,89 @@ impl Sink for StallList {
     fn next_stall(&mut self, from: u64) -> Option<Range<u64>> {
         let over = self.stalls.partition_point(|stall| stall.end <= from);
         self.stalls.get(over).cloned()
+    }
+}
+
+/// When a sink takes words.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum SinkPattern {
+    /// It takes a word at every clock.
+    #[default]
+    Always,
+    /// It takes words at a constant rate, as [`RateSink`] does.
+    Rate {
+        /// The number of words that it can take in `clocks` clocks.
+        words: u32,
+        /// The number of clocks.
+        clocks: u32,
+    },
+    /// It takes no word within these ranges of edges, which are in ascending order.
+    Stalls(Arc<[Range<u64>]>),
+}
+
+impl SinkPattern {
+    /// Returns the pattern of a sink that takes `words` words in `clocks` clocks, or `None` if it
+    /// would take more than one word at a clock.
+    #[must_use]
+    pub fn from_rate(words: u32, clocks: u32) -> Option<Self> {
+        (words <= clocks && clocks > 0).then_some(Self::Rate { words, clocks })
+    }
+
+    /// Makes a sink in the state at the first edge.
+    #[must_use]
+    pub fn sink(&self) -> Box<dyn Sink> {
+        match self {
+            Self::Always => Box::new(ReadySink),
+            Self::Rate { words, clocks } => Box::new(RateSink::new(*words, *clocks)),
+            Self::Stalls(stalls) => Box::new(StallList::new(stalls.to_vec())),
+        }
+    }
+}
+
+/// The number of the edge at which an event happens that never happens. It is so far below the
+/// largest number that sums of clocks do not overflow.
+pub(crate) const NEVER: u64 = 1 << 62;
+
+/// A pause of the source: beat number `beat` of a delivery is offered from edge `clock` on. The
+/// source keeps an offered beat on the port until the core takes it. A core without `ready_o` takes
+/// it at once.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BeatOffer {
+    /// The number of the beat in its delivery, from 0. It is the word of a raster core, the pixel
+    /// of every region of a pipelined array, or the pixel or pixels of a serial array.
+    pub beat: u64,
+    /// The first edge at which the beat is on the port.
+    pub clock: u64,
+}
+
+/// A frame as the source delivers it.
+#[derive(Clone, Copy, Debug)]
+pub struct FrameDelivery<'a> {
+    /// The pixels of the frame as the core sees them, without padding. In a damaged frame, the
+    /// pixels that the source does not deliver are those that stand on the port while the core
+    /// completes the frame. Where a core takes the halo or the padding of a region with its pixels,
+    /// such a frame may differ from every whole frame; then only the clocks of its decisions are
+    /// those of the core. The pixels of a frame that the core drops have no effect.
+    pub pixels: FramePixels<'a>,
+    /// The number of beats that the source delivers, or `None` for those of a frame. Other numbers
+    /// need a design with `hardware.sync`.
+    pub beats: Option<u64>,
+    /// True if the first beat has the mark of the start of a frame. It means something only in a
+    /// design with `hardware.sync`.
+    pub is_marked: bool,
+    /// The pauses of the source, in the order of the beats. A beat that is not in the list is
+    /// offered as soon as the beat before it has been taken.
+    pub offers: &'a [BeatOffer],
+    /// The edge of a reset that ends the delivery, or that follows it before the core could take
+    /// the next one. Beats that were not taken by then are not delivered at all.
+    pub reset: Option<u64>,
+}
+
+impl<'a> FrameDelivery<'a> {
+    /// Makes a whole frame whose beats the source offers as fast as the core takes them.
+    #[must_use]
+    pub fn whole(pixels: FramePixels<'a>) -> Self {
+        Self { pixels, beats: None, is_marked: true, offers: &[], reset: None }
     }
 }
 

@@ -5,11 +5,11 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use super::yosys;
 use crate::cache::Cache;
 use crate::cache_key::CacheKey;
 use crate::error::ToolError;
 use crate::invocation::{Invocation, ProgramOutput};
-use crate::port_widths;
 use crate::source_files::{self, Source, log_excerpt};
 use crate::tool::Tool;
 use crate::toolchain::Toolchain;
@@ -76,7 +76,7 @@ pub fn compile(
             .timeout(COMPILE_LIMIT);
         let output = toolchain.run_checked(&invocation)?;
         if let Some((module, file)) = &job.exact_ports {
-            port_widths::check_warnings(module, file, &output.log())?;
+            yosys::check_warnings(module, file, &output.log())?;
         }
         refuse_warnings(job.strict, &invocation, &output)
     })

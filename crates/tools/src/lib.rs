@@ -17,12 +17,9 @@ mod host;
 mod interrupt;
 mod invocation;
 pub mod iverilog;
-mod located_tool;
 pub mod nextpnr;
 pub mod opensta;
-mod port_widths;
 mod process;
-mod process_family;
 mod reading;
 mod running_program;
 mod source_files;
@@ -32,7 +29,6 @@ pub mod testing;
 mod tool;
 mod toolchain;
 pub mod verilator;
-mod xilinx_cells;
 pub mod yosys;
 
 pub use cache::Cache;
@@ -41,9 +37,7 @@ pub use error::ToolError;
 pub use host::{Host, SystemHost};
 pub use interrupt::{Interrupt, InterruptibleReader, open_interruptibly, standard_input};
 pub use invocation::{Invocation, ProgramOutput, StandardInput};
-pub use located_tool::LocatedTool;
-pub use port_widths::PortBits;
-pub use process_family::end_all_process_families;
+pub use process::end_all_process_families;
 pub use reading::{
     GZIP_MAGIC, LimitedReader, RECORD_LIMIT, SETTINGS_LIMIT, TableReader, TableRecords,
     foreign_format, open_file, read_bytes, read_settings, read_text, settings_from, table_reader,
@@ -56,5 +50,6 @@ pub use staging::{
     StagingError, TEMPORARY_PREFIX, check_file, has_room, is_full, write_file,
 };
 pub use synthesis::{SynthesisJob, SynthesisResult, ToolRecord};
-pub use tool::{Tool, ToolVersion};
+pub use tool::{LocatedTool, Tool, ToolVersion};
 pub use toolchain::Toolchain;
+pub use yosys::PortBits;

@@ -13,10 +13,10 @@ use std::process::{ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus, St
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
 use std::time::{Duration, Instant};
 
+use super::process::ProcessFamily;
 use crate::error::ToolError;
 use crate::interrupt::{GracePeriod, Interrupt, InterruptibleReader, POLL_STEP};
 use crate::invocation::Invocation;
-use crate::process_family::ProcessFamily;
 
 /// The number of bytes of a line that are kept. The rest of the line is dropped, so that it cannot
 /// appear as a line of its own.

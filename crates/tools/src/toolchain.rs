@@ -8,11 +8,11 @@ use std::sync::atomic::AtomicBool;
 use std::sync::{Arc, LazyLock, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
+use super::tool::LocatedTool;
 use crate::error::ToolError;
 use crate::host::{Host, SystemHost};
 use crate::interrupt::Interrupt;
 use crate::invocation::{Invocation, ProgramOutput};
-use crate::located_tool::LocatedTool;
 use crate::tool::{Tool, ToolVersion};
 
 type FoundTools<K> = Mutex<HashMap<K, LocatedTool>>;

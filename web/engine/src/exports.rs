@@ -15,7 +15,7 @@ use std::cell::RefCell;
 
 use foveate_pixels::FramePixels;
 
-use crate::limits::{MAX_NETWORK_FILE, MAX_PIXELS};
+use super::facts::{MAX_NETWORK_FILE, MAX_PIXELS};
 use crate::{FrameSummary, LiveCamera, PageCameras, PageNetwork, WebError};
 
 /// The largest input in bytes: the file of a network, which is larger than a frame in colour.
@@ -220,7 +220,7 @@ pub extern "C" fn foveate_pixels(handle: u32) -> i32 {
     with_page_state(|counter| counter.answer_pixels(handle, LiveCamera::pixels))
 }
 
-/// Answers with the receiver's screen, in pixels as [`foveate_pixels`] has them.
+/// Answers with the receiver's screen, in pixels as [`mod@foveate_pixels`] has them.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_rendered(handle: u32) -> i32 {
     with_page_state(|counter| counter.answer_pixels(handle, |camera| camera.engine().rendered()))
@@ -356,7 +356,7 @@ pub extern "C" fn foveate_network_open(width: u32, height: u32, bits: u32) -> i3
 }
 
 /// Runs the network on two frames in the input buffer: the whole frame and, behind it, the
-/// receiver's screen, both in pixels as [`foveate_pixels`] has them. Answers with a comparison of
+/// receiver's screen, both in pixels as [`mod@foveate_pixels`] has them. Answers with a comparison of
 /// its outputs, as JSON.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_network_look() -> i32 {

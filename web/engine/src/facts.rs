@@ -1,8 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The facts about a camera that a page gets.
+//! The facts about a camera that a page gets. The description of what a page can offer:
+//! presets, scenes, keys with their values, features with their defaults. All of it comes from
+//! the tables that the command uses, so that a page has no range of its own. The limits of
+//! everything that grows.
 
-use foveate_camera::KeyBound;
-use foveate_design::Design;
+use foveate_camera::toml_text::TomlConfig as _;
+use foveate_camera::{
+    AcceptedValues, CameraConfig, ConfigError, ConfigKey, FeatureKind, IrrelevantRendering,
+    KeyBound, SpatialConfig,
+};
+use foveate_design::{Design, DesignConfig, Organization, PRESETS};
+use foveate_pixels::Scene;
 use serde_json::{Map, Value, json};
 
 /// Returns every key with its value, the sizes that follow, and the possible values of each key
@@ -35,3 +43,77 @@ fn described_bound(bound: KeyBound) -> Value {
         KeyBound::OneOf(values) => json!({ "kind": "choice", "choices": values }),
     }
 }
+
+/// Returns the whole description.
+pub(crate) fn page_description() -> Result<Value, ConfigError> {
+    let defaults = defaults()?;
+    let presets = PRESETS.iter().map(
+        |preset| json!({ "name": preset.name, "summary": preset.summary, "toml": preset.toml }),
+    );
+    let scenes = Scene::ALL.iter().map(|scene| {
+        json!({ "name": scene.name(), "summary": scene.summary(), "frames": scene.default_frames() })
+    });
+    let keys = DesignConfig::keys().map(|key| described_key(key, &defaults));
+    let features = FeatureKind::ALL.iter().map(|&kind| feature(kind));
+    Ok(json!({
+        "version": env!("CARGO_PKG_VERSION"),
+        "presets": presets.collect::<Vec<_>>(),
+        "scenes": scenes.collect::<Vec<_>>(),
+        "keys": keys.collect::<Vec<_>>(),
+        "features": features.collect::<Vec<_>>(),
+        "limits": { "cameras": MAX_CAMERAS, "pixels": MAX_PIXELS, "network_bytes": MAX_NETWORK_FILE, "recording_bytes": MAX_RECORDING },
+    }))
+}
+
+/// Returns the default camera with every key. The keys of a periphery are included, although the
+/// default has no periphery.
+fn defaults() -> Result<Value, ConfigError> {
+    let design = DesignConfig::default().validate()?;
+    let mut shown = CameraConfig::default();
+    shown.render.irrelevant = IrrelevantRendering::Mean;
+    let mut defaults = json!(design.config());
+    defaults["periphery"] = json!(shown.validate()?.config().periphery);
+    Ok(defaults)
+}
+
+/// Describes a key: its kind, its values in words, its range or choices if these depend on no other
+/// key, and its default.
+fn described_key((key, values): &ConfigKey, defaults: &Value) -> Value {
+    let path = format!("/{}", key.replacen("spatial.", "spatial.0.", 1).replace('.', "/"));
+    let mut told =
+        json!({ "key": key, "takes": values.to_string(), "default": defaults.pointer(&path) });
+    match values {
+        AcceptedValues::Whole(range) => {
+            told["kind"] = json!("whole");
+            (told["min"], told["max"]) = (json!(range.start()), json!(range.end()));
+        }
+        AcceptedValues::Names(names) => {
+            (told["kind"], told["choices"]) = (json!("choice"), json!(names));
+        }
+        AcceptedValues::Text(_) => told["kind"] = json!("text"),
+    }
+    told
+}
+
+/// Returns a feature with the default values of its keys for pixels of 8 bits, its unit, and the
+/// organizations that support it. Keys that do not apply are left out.
+fn feature(kind: FeatureKind) -> Value {
+    let mut told = json!(SpatialConfig::new(kind).with_defaults(8));
+    told["unit"] = json!(kind.score_unit().name());
+    let supports = |one: &&Organization| one.feature_kinds().contains(&kind);
+    let organizations = Organization::ALL.iter().filter(supports).map(|one| one.name());
+    told["organizations"] = json!(organizations.collect::<Vec<_>>());
+    told
+}
+
+/// The largest number of cameras at a time.
+pub const MAX_CAMERAS: usize = 8;
+/// The largest number of pixels of a frame: that of 3840x2160.
+pub const MAX_PIXELS: u32 = 3840 * 2160;
+/// The largest file of a network in bytes.
+pub const MAX_NETWORK_FILE: usize = 256 << 20;
+/// The largest number of bytes that the tensors of a network take for a frame. A page has 4 GiB in
+/// all.
+pub const MAX_NETWORK_BYTES: u64 = 1 << 30;
+/// The largest recording in bytes.
+pub const MAX_RECORDING: usize = 64 << 20;

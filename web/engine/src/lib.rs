@@ -11,11 +11,9 @@
 //! Wrong input gives a message. Everything that grows has a limit: cameras, pixels of a frame,
 //! bytes of a recording, a network.
 
-mod describe;
 mod error;
 pub mod exports;
 mod facts;
-mod limits;
 mod live_camera;
 mod network;
 mod page_cameras;
@@ -23,7 +21,7 @@ mod pixels;
 mod recording;
 
 pub use error::WebError;
-pub use limits::{MAX_CAMERAS, MAX_NETWORK_BYTES, MAX_NETWORK_FILE, MAX_PIXELS, MAX_RECORDING};
+pub use facts::{MAX_CAMERAS, MAX_NETWORK_BYTES, MAX_NETWORK_FILE, MAX_PIXELS, MAX_RECORDING};
 pub use live_camera::{ActionCounts, FrameSummary, LiveCamera};
 pub use network::{FrameDetection, NetworkComparison, NetworkSettings, PageNetwork};
 pub use page_cameras::PageCameras;

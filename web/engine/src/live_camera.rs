@@ -11,8 +11,8 @@ use foveate_model::{
 use foveate_pixels::{Frame, FramePixels, append_luma_of_rgba};
 use serde::Serialize;
 
+use super::facts::MAX_RECORDING;
 use crate::WebError;
-use crate::limits::MAX_RECORDING;
 use crate::pixels::{CameraPixels, DepthConversion};
 use crate::recording::{Recording, RecordingState};
 

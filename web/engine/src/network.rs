@@ -16,8 +16,8 @@ use foveate_pixels::FramePixels;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
+use super::facts::{MAX_NETWORK_BYTES, MAX_NETWORK_FILE};
 use crate::WebError;
-use crate::limits::{MAX_NETWORK_BYTES, MAX_NETWORK_FILE};
 use crate::page_cameras::check_size;
 
 /// The side of the regions in which a frame is converted. The network computes all of it anyway.

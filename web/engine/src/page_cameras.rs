@@ -5,8 +5,7 @@ use foveate_design::DesignConfig;
 use foveate_pixels::{Scene, SceneFrames, SceneParameters};
 use serde_json::Value;
 
-use crate::describe::page_description;
-use crate::limits::{MAX_CAMERAS, MAX_PIXELS};
+use super::facts::{MAX_CAMERAS, MAX_PIXELS, page_description};
 use crate::{LiveCamera, WebError, facts};
 
 /// The state of a page: its cameras and its scene.

@@ -17,7 +17,7 @@ use foveate_output::{
 };
 use sha2::{Digest as _, Sha256};
 
-use crate::view::base85;
+use super::frame_player;
 
 macro_rules! web_files {
     ($($name:literal),* $(,)?) => { [$(include_str!(concat!("../../web/", $name))),*] };
@@ -91,7 +91,7 @@ fn module_part(module: &str) -> String {
 fn compressed(bytes: &[u8]) -> String {
     let mut gzip = GzEncoder::new(Vec::new(), Compression::best());
     let written = gzip.write_all(bytes).and_then(|()| gzip.finish());
-    base85::encode(&written.expect("memory takes everything"))
+    frame_player::encode(&written.expect("memory takes everything"))
 }
 
 fn policy(script: &str, style: &str) -> String {

@@ -13,9 +13,9 @@ use foveate_design::Preset;
 use foveate_media::InputOptions;
 use serde_json::Value;
 
+use super::server::HttpAnswer;
 use crate::view::camera_page::camera_page;
 use crate::view::frame_player::FramePlayer;
-use crate::view::http::HttpAnswer;
 use crate::view::server::{PageServer, PageSite};
 use crate::view::{ViewError, start_thread};
 

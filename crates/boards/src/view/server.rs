@@ -1,16 +1,29 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A server of a page for browsers of this machine. Without the link a browser gets nothing: every
-//! path begins with a random token. The name of the host must be the server's, so that a foreign
-//! page cannot reach it under another name. A [`PageSite`] provides the content.
+//! A server of a page for browsers of this machine. Without the link a browser gets nothing:
+//! every path begins with a random token. The name of the host must be the server's, so that a
+//! foreign page cannot reach it under another name. A [`PageSite`] provides the content. The
+//! connections of a server. There are never more than [`CONNECTIONS`], and a new connection
+//! always finds room: the connection that has been silent for the longest time is closed, and
+//! connections that have not shown the token of the link are closed first. So slow, idle or
+//! stuck connections do not affect a browser that behaves well. The part of HTTP/1.1 that a
+//! browser on the same machine needs: requests with a length, one after the other on a
+//! connection. Requests and answers have limits in bytes, lines and time. The content of
+//! `foveate view`: a stream of packets, and the registers of a board. The page of a view: one
+//! file, with the colours of the palette and the registers of the design.
 
-use std::net::{SocketAddr, TcpListener, TcpStream};
-use std::sync::Arc;
-use std::thread::sleep;
-use std::time::Duration;
-
+use super::shared_stream::TimedStream;
 use crate::view::ViewError;
-use crate::view::connections::{ConnectionPlace, ConnectionTable};
-use crate::view::http::{HttpAnswer, HttpRequest, RequestStream};
+use crate::view::board::BoardRegisters;
+use crate::view::shared_stream::SharedStream;
+use foveate_output::page::colour_variables;
+use foveate_output::palette::{DARK, LIGHT};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::io::{self, BufRead, BufReader, Read, Write};
+use std::net::{Shutdown, SocketAddr, TcpListener, TcpStream};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
 
 /// The time to wait for the connection that wakes the server.
 const WAKE_TIME: Duration = Duration::from_millis(200);
@@ -112,11 +125,7 @@ fn accept_connections(listener: &TcpListener, shared: &Arc<ServerContext<impl Pa
 }
 
 impl<S: PageSite> ServerContext<S> {
-    fn answer_requests(
-        &self,
-        stream: Arc<TcpStream>,
-        place: &ConnectionPlace,
-    ) -> std::io::Result<()> {
+    fn answer_requests(&self, stream: Arc<TcpStream>, place: &ConnectionPlace) -> io::Result<()> {
         stream.set_nodelay(true)?;
         let mut requests = RequestStream::new(stream);
         while let Some(request) = requests.next()? {
@@ -184,4 +193,323 @@ fn random_token() -> Result<String, ViewError> {
     let mut bytes = [0; 16];
     getrandom::fill(&mut bytes).map_err(|error| ViewError::Random { reason: error.to_string() })?;
     Ok(format!("{:032x}", u128::from_le_bytes(bytes)))
+}
+
+/// The number of connections at a time.
+const CONNECTIONS: usize = 32;
+/// The time that a new connection waits for the thread of a closed one to end.
+const NEW_CONNECTION_LIMIT: Duration = Duration::from_secs(1);
+/// The time after which another connection is closed, too.
+const CLOSE_INTERVAL: Duration = Duration::from_millis(100);
+
+/// The open connections.
+#[derive(Debug, Default)]
+pub(crate) struct ConnectionTable {
+    state: Mutex<OpenConnections>,
+    connection_ended: Condvar,
+}
+
+#[derive(Debug, Default)]
+struct OpenConnections {
+    next: u64,
+    open: BTreeMap<u64, Connection>,
+}
+
+#[derive(Debug)]
+struct Connection {
+    stream: Arc<TcpStream>,
+    /// True if the connection has shown the token.
+    is_admitted: bool,
+    /// The time of its last request, or of its opening.
+    last_request: Instant,
+    is_closed: bool,
+}
+
+/// The place of a connection in the table. The place is free again when this value is dropped.
+#[derive(Debug)]
+pub(crate) struct ConnectionPlace {
+    table: Arc<ConnectionTable>,
+    number: u64,
+}
+
+impl ConnectionTable {
+    /// Registers a new connection. Returns `None` only if the threads of [`CONNECTIONS`] closed
+    /// connections do not end in time.
+    pub(crate) fn register(self: &Arc<Self>, stream: &Arc<TcpStream>) -> Option<ConnectionPlace> {
+        let until = Instant::now() + NEW_CONNECTION_LIMIT;
+        let mut state = self.lock();
+        while state.open.len() >= CONNECTIONS {
+            if Instant::now() > until {
+                return None;
+            }
+            state.close_one();
+            let waited = self.connection_ended.wait_timeout(state, CLOSE_INTERVAL);
+            state = waited.unwrap_or_else(PoisonError::into_inner).0;
+        }
+        let number = state.next;
+        state.next += 1;
+        let (stream, now) = (Arc::clone(stream), Instant::now());
+        let connection =
+            Connection { stream, is_admitted: false, last_request: now, is_closed: false };
+        state.open.insert(number, connection);
+        Some(ConnectionPlace { table: Arc::clone(self), number })
+    }
+
+    fn lock(&self) -> MutexGuard<'_, OpenConnections> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl OpenConnections {
+    /// Closes the connection that has been silent for the longest time. Connections that have not
+    /// shown the token are closed first.
+    fn close_one(&mut self) {
+        let open = self.open.values_mut().filter(|connection| !connection.is_closed);
+        if let Some(oldest) =
+            open.min_by_key(|connection| (connection.is_admitted, connection.last_request))
+        {
+            oldest.is_closed = true;
+            // The thread of the connection sees the end of the stream. A failure means that the
+            // connection is closed already.
+            let _ = oldest.stream.shutdown(Shutdown::Both);
+        }
+    }
+}
+
+impl ConnectionPlace {
+    /// Notes that the connection has sent a request with the token.
+    pub(crate) fn admit(&self) {
+        if let Some(connection) = self.table.lock().open.get_mut(&self.number) {
+            (connection.is_admitted, connection.last_request) = (true, Instant::now());
+        }
+    }
+}
+
+impl Drop for ConnectionPlace {
+    fn drop(&mut self) {
+        self.table.lock().open.remove(&self.number);
+        self.table.connection_ended.notify_all();
+    }
+}
+
+/// The largest head of a request, in bytes.
+const HEAD_LIMIT: u64 = 16 << 10;
+/// The largest number of lines in a head.
+const LINE_LIMIT: usize = 100;
+/// The largest body of a request, in bytes.
+const BODY_LIMIT: usize = 4 << 10;
+/// The time for a whole request, from its first byte on. For the first request of a connection it
+/// begins with the connection.
+const REQUEST_TIME: Duration = Duration::from_secs(5);
+/// The longest silence between two requests.
+const IDLE_TIME: Duration = Duration::from_secs(30);
+/// The time in which a browser must take an answer. It gets one more second for every
+/// [`BYTES_PER_SECOND`] bytes.
+const ANSWER_TIME: Duration = Duration::from_secs(10);
+const BYTES_PER_SECOND: usize = 64 << 10;
+
+/// A request of a browser.
+#[derive(Debug)]
+pub(crate) struct HttpRequest {
+    pub(crate) method: String,
+    pub(crate) target: String,
+    /// The name of the server in the request.
+    pub(crate) host: String,
+    pub(crate) body: Vec<u8>,
+}
+
+/// An answer to a request.
+#[derive(Debug)]
+pub(crate) struct HttpAnswer {
+    pub(crate) status: &'static str,
+    pub(crate) kind: &'static str,
+    pub(crate) body: Vec<u8>,
+}
+
+impl HttpAnswer {
+    pub(crate) fn text(status: &'static str, text: &str) -> Self {
+        let body = format!("{text}\n").into_bytes();
+        Self { status, kind: "text/plain; charset=utf-8", body }
+    }
+
+    /// Returns the answer to a method that the path does not have.
+    pub(crate) fn method_not_allowed() -> Self {
+        Self::text("405 Method Not Allowed", "this address does not support that method")
+    }
+
+    pub(crate) fn binary(body: Vec<u8>) -> Self {
+        Self { status: "200 OK", kind: "application/octet-stream", body }
+    }
+}
+
+/// The requests of a browser on one connection, each with its answer.
+#[derive(Debug)]
+pub(crate) struct RequestStream {
+    requests: BufReader<TimedStream>,
+    is_begun: bool,
+}
+
+impl RequestStream {
+    pub(crate) fn new(stream: Arc<TcpStream>) -> Self {
+        Self { requests: BufReader::new(TimedStream::new(stream)), is_begun: false }
+    }
+
+    /// Returns the next request; `None` if the browser sends no more.
+    pub(crate) fn next(&mut self) -> io::Result<Option<HttpRequest>> {
+        if std::mem::replace(&mut self.is_begun, true) {
+            self.requests.get_mut().set_deadline(IDLE_TIME);
+            if self.requests.fill_buf()?.is_empty() {
+                return Ok(None);
+            }
+        }
+        self.requests.get_mut().set_deadline(REQUEST_TIME);
+        read_request(&mut self.requests)
+    }
+
+    /// Writes an answer. Browsers do not store it, and other pages cannot show it; `policy` says
+    /// what it may load. `is_last` announces the end of the connection.
+    pub(crate) fn answer(
+        &mut self,
+        answer: &HttpAnswer,
+        policy: &str,
+        is_last: bool,
+    ) -> io::Result<()> {
+        let HttpAnswer { status, kind, body } = answer;
+        let connection = if is_last { "close" } else { "keep-alive" };
+        let head = format!(
+            "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\nContent-Length: {}\r\nConnection: {connection}\r\n\
+             Content-Security-Policy: {policy}\r\nCache-Control: no-store\r\n\
+             Referrer-Policy: no-referrer\r\nX-Content-Type-Options: nosniff\r\nCross-Origin-Resource-Policy: same-origin\r\n\r\n",
+            body.len()
+        );
+        let stream = self.requests.get_mut();
+        let extra_seconds = u64::try_from(body.len() / BYTES_PER_SECOND).unwrap_or(u64::MAX);
+        stream.set_deadline(ANSWER_TIME.saturating_add(Duration::from_secs(extra_seconds)));
+        stream.write_all(&[head.as_bytes(), body].concat())
+    }
+}
+
+fn invalid(what: &str) -> io::Error {
+    io::Error::new(io::ErrorKind::InvalidData, what.to_owned())
+}
+
+/// Reads a line without its end; `None` at the end of the stream.
+fn read_line(head: &mut impl BufRead) -> io::Result<Option<String>> {
+    let mut text = Vec::new();
+    head.read_until(b'\n', &mut text)?;
+    match text.strip_suffix(b"\n") {
+        Some(text) => Ok(Some(String::from_utf8_lossy(text).trim_end().to_owned())),
+        None if text.is_empty() => Ok(None),
+        None => Err(invalid("a line of the request has no end")),
+    }
+}
+
+/// Sets a header that may occur only once.
+fn set_once<T>(header: &mut Option<T>, value: T) -> io::Result<()> {
+    match header.replace(value) {
+        None => Ok(()),
+        Some(_) => Err(invalid("a header of the request appears twice")),
+    }
+}
+
+fn read_request(stream: &mut impl BufRead) -> io::Result<Option<HttpRequest>> {
+    let mut head = stream.by_ref().take(HEAD_LIMIT);
+    let Some(first) = read_line(&mut head)? else { return Ok(None) };
+    let mut words = first.split(' ');
+    let (method, target) = words
+        .next()
+        .zip(words.next())
+        .ok_or_else(|| invalid("the first line of the request has no method and path"))?;
+    let (method, target) = (method.to_owned(), target.to_owned());
+    let (mut host, mut length) = (None, None);
+    for number in 1.. {
+        let text =
+            read_line(&mut head)?.ok_or_else(|| invalid("the head of the request has no end"))?;
+        if text.is_empty() {
+            break;
+        }
+        if number >= LINE_LIMIT {
+            return Err(invalid("the head of the request has too many lines"));
+        }
+        let Some((name, value)) = text.split_once(':') else { continue };
+        match name.to_ascii_lowercase().as_str() {
+            "host" => set_once(&mut host, value.trim().to_owned())?,
+            "content-length" => set_once(&mut length, parse_body_length(value.trim())?)?,
+            "transfer-encoding" => return Err(invalid("the body of the request has no length")),
+            _ => {}
+        }
+    }
+    let mut body = vec![0; length.unwrap_or(0)];
+    stream.read_exact(&mut body)?;
+    Ok(Some(HttpRequest { method, target, host: host.unwrap_or_default(), body }))
+}
+
+/// Parses the length of a body, up to [`BODY_LIMIT`].
+fn parse_body_length(text: &str) -> io::Result<usize> {
+    let digits = text.bytes().all(|byte| byte.is_ascii_digit());
+    let length: Option<usize> = if digits { text.parse().ok() } else { None };
+    length
+        .filter(|&length| length <= BODY_LIMIT)
+        .ok_or_else(|| invalid("the length of the request's body is not a number, or too large"))
+}
+
+/// The time that a browser waits for a change.
+const CHANGE_WAIT: Duration = Duration::from_secs(1);
+
+/// A stream, and the board that sends it.
+#[derive(Debug)]
+pub(crate) struct StreamSite {
+    pub(crate) live: Arc<SharedStream>,
+    pub(crate) board: Arc<BoardRegisters>,
+}
+
+impl PageSite for StreamSite {
+    fn command(&self) -> &'static str {
+        "foveate view"
+    }
+
+    fn page(&self, nonce: &str) -> String {
+        stream_page(nonce, &self.board.describe())
+    }
+
+    fn answer(&self, method: &str, subpath: &str, query: &str, body: &[u8]) -> Option<HttpAnswer> {
+        Some(match (method, subpath) {
+            ("GET", "next") => {
+                let after = query.strip_prefix("after=").and_then(|after| after.parse().ok());
+                HttpAnswer::binary(self.live.changes_after(after.unwrap_or(0), CHANGE_WAIT))
+            }
+            ("POST", "register") => self.write(body),
+            (_, "next" | "register") => HttpAnswer::method_not_allowed(),
+            _ => return None,
+        })
+    }
+
+    fn is_over(&self) -> bool {
+        self.live.is_over()
+    }
+}
+
+impl StreamSite {
+    /// Writes a register: `{"address": 256, "value": 4}`.
+    fn write(&self, body: &[u8]) -> HttpAnswer {
+        let asked: Value = serde_json::from_slice(body).unwrap_or_default();
+        let Some((address, value)) = asked["address"].as_u64().zip(asked["value"].as_u64()) else {
+            return HttpAnswer::text("400 Bad Request", "a register has an address and a value");
+        };
+        match self.board.write(address, value) {
+            Ok(()) => HttpAnswer::text("200 OK", "written"),
+            Err(why) => HttpAnswer::text("409 Conflict", &why),
+        }
+    }
+}
+
+/// Returns the page, with a script that `nonce` allows.
+pub(crate) fn stream_page(nonce: &str, registers: &Value) -> String {
+    // The registers become part of a script, which `<` could end.
+    let registers = registers.to_string().replace('<', "\\u003c");
+    include_str!("page.html")
+        .replace("NONCE", nonce)
+        .replace("/*LIGHT*/", &colour_variables(&LIGHT))
+        .replace("/*DARK*/", &colour_variables(&DARK))
+        .replace("/*REGISTERS*/ null", &registers)
 }

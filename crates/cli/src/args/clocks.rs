@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The options for the clocks of a core: its frequency, and the sink of its words.
+//! The options for the clocks of a core: its frequency, and the sink of its words. The options
+//! of a process in whose cells designs are measured.
 
-use std::path::PathBuf;
-
+use super::DEFAULT_LIBERTY;
+use super::check::ClockFrequency;
+use crate::error::CliError;
 use clap::{Args, ValueEnum};
 use foveate_simulator::{ClockOptions, read_stalls};
 use foveate_timed::SinkPattern;
-
-use super::check::ClockFrequency;
-use crate::error::CliError;
+use std::path::PathBuf;
 
 /// The options of the tables of clocks.
 #[derive(Args, Debug)]
@@ -65,6 +65,24 @@ impl ClockArgs {
             sink,
         })
     }
+}
+
+/// The cells and memories of a process.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Silicon")]
+pub(crate) struct ProcessArgs {
+    /// Measure designs in the cells of this liberty file, too, plain or gzipped: area, clock and energy.
+    /// Without a file, the cells are those of Debian's package `qflow-tech-osu018`, of 0.18 um; then give
+    /// --liberty behind the inputs
+    #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = DEFAULT_LIBERTY)]
+    pub(crate) liberty: Option<PathBuf>,
+    /// Liberty files of memory macros of the same voltage, for memories that are too large for
+    /// flip-flops
+    #[arg(long, value_name = "FILE", num_args = 1.., requires = "liberty")]
+    pub(crate) macros: Vec<PathBuf>,
+    /// Largest memory in bits that becomes flip-flops
+    #[arg(long, value_name = "BITS", default_value_t = 4096, requires = "liberty")]
+    pub(crate) memory_limit: u64,
 }
 
 #[cfg(test)]

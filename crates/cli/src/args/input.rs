@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The options that say how inputs are read.
+//! The options that say how inputs are read. The frames of the inputs, for commands that hold
+//! all of them in memory. The check that a configuration from standard input leaves it to no
+//! other argument.
 
-use std::path::{Path, PathBuf};
-
-use clap::{Args, ValueEnum};
-use foveate_media::{
-    BayerPattern, ClipPlan, CropRect, FrameRate, FrameSelection, ImageRelation, InputOptions,
-    InputWarnings, LumaRange, MAX_SIDE, Orientation, RawLayout, TimestampUnit, TimestampsFile,
-    input_warnings, parse_time, plan,
-};
-use foveate_tools::{FolderKind, StagedFolder};
-
-use super::at_least_one;
+use super::{DesignArgs, at_least_one};
 use crate::error::CliError;
 use crate::{interrupt, notice};
+use clap::error::ErrorKind;
+use clap::{ArgMatches, Args, Command, Error, ValueEnum};
+use foveate_design::Design;
+use foveate_media::{
+    BayerPattern, ClipPlan, ClipPlayer, CropRect, FrameRate, FrameSelection, ImageRelation,
+    InputOptions, InputWarnings, LumaRange, MAX_SIDE, Orientation, PlaybackError, RawLayout,
+    TimestampUnit, TimestampsFile, input_warnings, parse_time, plan,
+};
+use foveate_pixels::Frame;
+use foveate_tools::{FolderKind, StagedFolder};
+use std::path::{Path, PathBuf};
 
 /// The options that say how inputs are read.
 #[derive(Args, Debug)]
@@ -238,4 +241,55 @@ fn parse_crop(text: &str) -> Result<CropRect, String> {
     let mut next = || parts.next().and_then(|part| part.parse().ok());
     let at = next().zip(next()).ok_or_else(wrong)?;
     if parts.next().is_some() { Err(wrong()) } else { Ok(CropRect { size, origin: at }) }
+}
+
+impl DesignArgs {
+    /// Returns the design with the size of the inputs, and at most `at_most` frames of them.
+    /// Without inputs, it returns the design alone.
+    pub(crate) fn with_frames(
+        &self,
+        inputs: &[String],
+        at_most: u32,
+    ) -> Result<(Design, Vec<Frame>), CliError> {
+        if inputs.is_empty() {
+            return Ok((self.design()?, Vec::new()));
+        }
+        let config = self.config()?;
+        let (frames, interrupt) = (Some(at_most), interrupt::stop_request());
+        let options = InputOptions { frames, interrupt, ..InputOptions::default() };
+        warn_about_inputs(inputs, &options);
+        // The inputs are opened only once, because standard input and cameras cannot be read again.
+        let player = ClipPlayer::open(inputs, &config.camera, &options)?;
+        let (width, height) = player.size();
+        let design = config.validate_for_frames(width, height)?;
+        let frames = player.map(|played| Ok(played?.frame.to_frame()?));
+        Ok((design, frames.collect::<Result<_, PlaybackError>>()?))
+    }
+}
+
+/// The arguments of frames and packets, which are read from standard input if they are `-`.
+const STREAMS: [&str; 4] = ["inputs", "input", "stream", "clip"];
+
+/// The arguments of a configuration.
+const CONFIGS: [&str; 2] = ["config", "file"];
+
+/// Refuses `--config -` beside frames or packets from standard input, because the configuration
+/// would leave nothing for them.
+pub(crate) fn refuse_second_reader(
+    command: &mut Command,
+    matches: &ArgMatches,
+) -> Result<(), Error> {
+    let Some((name, given)) = matches.subcommand() else { return Ok(()) };
+    let is_standard_input = |id: &str| {
+        let mut values = given.try_get_raw(id).ok().flatten().into_iter().flatten();
+        values.any(|value| value == "-")
+    };
+    let any_is = |ids: &[&str]| ids.iter().any(|id| is_standard_input(id));
+    if !any_is(&CONFIGS) || !any_is(&STREAMS) {
+        return Ok(());
+    }
+    let command = command.find_subcommand_mut(name).expect("this subcommand was parsed");
+    let problem = "standard input can be read only once, so `--config -` and `-` exclude each other; write the \
+                   configuration into a file and name that";
+    Err(command.error(ErrorKind::ArgumentConflict, problem))
 }

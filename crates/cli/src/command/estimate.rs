@@ -3,7 +3,6 @@
 //! a placed design.
 
 mod compare;
-mod route;
 mod silicon;
 mod synthesis;
 
@@ -25,7 +24,7 @@ pub(crate) fn run(args: &EstimateArgs) -> Result<(), CliError> {
     } else if args.place_and_route.is_empty() {
         estimate_one(args, &flow)
     } else {
-        route::run(args, &flow)
+        synthesis::run(args, &flow)
     }
 }
 

@@ -1,19 +1,27 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The levels that take whole frames: the clear model, and the engine that must give the same
-//! results.
-
-use std::hint::black_box;
-
-use foveate_design::Design;
-use foveate_engine::{Engine, EngineOptions, InstructionSet as Instructions};
-use foveate_model::FunctionalCamera;
-use foveate_pixels::Frame;
+//! results. The cycle-level model of the array, which also made the recording. The timed model:
+//! no ports, but the clock of everything that comes out.
 
 use super::benchmark_report::{BenchmarkLevel, LevelMeasurement, LevelRow};
-use super::pass_timer::{PassTimer, PassTimes};
-use super::peak_memory::InitialResidentSize;
+use super::netlist_level::clock_rates;
+use super::outcome_comparison;
+use super::pass_timer::{InitialResidentSize, PassTimer, PassTimes};
+use super::unpacked_inputs::{UnpackedInputs, compare_recording, field_of_role, for_each_clock};
+use crate::codec::RecordCodec;
 use crate::error::CosimError;
+use crate::layout::{RecordField, RecordLayout};
+use crate::recording::Recording;
 use crate::timed_run::OutputAgreement;
+use foveate_design::{Design, Hardware, Organization, PortRole};
+use foveate_engine::{Engine, EngineOptions, FrameOutcome, InstructionSet as Instructions};
+use foveate_model::{FunctionalCamera, rcm_model};
+use foveate_pixels::{ByteFrame, Frame};
+use foveate_timed::{
+    BeatOffer, DecisionRun, FrameDelivery, ReadySink, StallList, TimedModel, Transaction, WordRun,
+};
+use std::hint::black_box;
+use std::ops::Range;
 
 /// Times [`FunctionalCamera`], the reference of all comparisons.
 pub(super) fn run_model(
@@ -105,10 +113,290 @@ fn frame_rates(design: &Design, frames: &[Frame], time: PassTimes) -> LevelMeasu
     }
 }
 
+/// Compares the model's decisions with the functional model and its outputs for the recorded inputs
+/// with the recording, and then times it.
+pub(super) fn run_cycle_level(
+    design: &Design,
+    frames: &[Frame],
+    recording: &Recording,
+    vectors: &UnpackedInputs,
+    timer: PassTimer<'_>,
+) -> Result<LevelRow, CosimError> {
+    let decided =
+        outcome_comparison::outcome_agreement(design, recording, frames, vectors.streamed_frames)?;
+    let again = replay_agreement(design, recording, vectors)?;
+    let before = InitialResidentSize::measure();
+    let mut core = rcm_model(design);
+    let time = timer.time_passes(|| {
+        for input in vectors.inputs() {
+            black_box(&mut core).clock(&input);
+        }
+        Ok(())
+    })?;
+    let peak_bytes = before.peak_bytes();
+    let agreement = OutputAgreement {
+        compared: decided.compared + again.compared,
+        differing: decided.differing + again.differing,
+    };
+    let measured = LevelMeasurement { peak_bytes, ..clock_rates(design, vectors, time) };
+    let measured = measured.with_agreement(BenchmarkLevel::FunctionalClear, agreement);
+    Ok(LevelRow::measured(BenchmarkLevel::Cycle, type_name(design.organization()), measured))
+}
+
+/// Returns the name of the model's type.
+fn type_name(organization: Organization) -> &'static str {
+    match organization {
+        Organization::Pipelined => "PipelinedRcm",
+        Organization::Serial => "SerialRcm",
+        Organization::Raster => "RasterRcm",
+    }
+}
+
+fn replay_agreement(
+    design: &Design,
+    recording: &Recording,
+    vectors: &UnpackedInputs,
+) -> Result<OutputAgreement, CosimError> {
+    let (mut core, mut codec) = (rcm_model(design), RecordCodec::new(design));
+    let mut inputs = vectors.inputs();
+    compare_recording(recording, |record| {
+        if let Some(input) = inputs.next() {
+            core.clock(&input);
+            codec.encode_outputs(recording.outputs(), &*core, record);
+        }
+    })
+}
+
+/// A value at a port of a region: its clock, the number of the region, the port and the value.
+type PortValue = (u64, u32, ComparedPort, u64);
+
+/// The ports whose values are compared. Others have a meaning only with these.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum ComparedPort {
+    Srs,
+    Trs,
+    Active,
+    ForwardPixel,
+}
+
+/// Compares the model's decisions and words at their clocks with the recording, and then times it.
+/// It may not skip regions that have not changed, as the engine may not.
+pub(super) fn run_transaction_level(
+    design: &Design,
+    frames: &[Frame],
+    recording: &Recording,
+    vectors: &UnpackedInputs,
+    timer: PassTimer<'_>,
+) -> Result<LevelRow, CosimError> {
+    let frames: Vec<ByteFrame> = frames.iter().map(ByteFrame::from).collect();
+    let agreement = port_agreement(design, &frames, recording)?;
+    let before = InitialResidentSize::measure();
+    let options = EngineOptions { skips_identical_regions: false, ..EngineOptions::default() };
+    let mut model = TimedModel::with_options(design, options, Box::new(ReadySink))?;
+    let time = timer.time_passes(|| {
+        for number in 0..vectors.streamed_frames {
+            let delivery =
+                FrameDelivery::whole(frame_of_number(&frames, number)?.borrowed_pixels());
+            model.step(&delivery, &mut |transaction| {
+                black_box(transaction);
+            })?;
+        }
+        Ok(())
+    })?;
+    let peak_bytes = before.peak_bytes();
+    let measured = LevelMeasurement { peak_bytes, ..clock_rates(design, vectors, time) };
+    let measured = measured.with_agreement(BenchmarkLevel::Cycle, agreement);
+    Ok(LevelRow::measured(BenchmarkLevel::Transactions, "TimedModel", measured))
+}
+
+/// Returns a frame of the recording, which repeats the last one.
+fn frame_of_number(frames: &[ByteFrame], number: u64) -> Result<&ByteFrame, CosimError> {
+    let number = usize::try_from(number).unwrap_or(usize::MAX);
+    frames.get(number.min(frames.len() - 1)).ok_or(CosimError::NoFrames)
+}
+
+/// Compares every decision and every word at its clock.
+fn port_agreement(
+    design: &Design,
+    frames: &[ByteFrame],
+    recording: &Recording,
+) -> Result<OutputAgreement, CosimError> {
+    let traffic = RecordedTraffic::read(design, recording)?;
+    let expected = recorded_values(design, recording)?;
+    let mut model = TimedModel::new(design, Box::new(StallList::new(traffic.stalls)));
+    let mut values = Vec::new();
+    let mut visit = |transaction: &Transaction<'_>| match transaction {
+        Transaction::Decisions(run) => append_decisions(run, &mut values),
+        Transaction::Words(run) => append_words(design, run, &mut values),
+        Transaction::Scores(_) | Transaction::Loss(_) | Transaction::SyncError { .. } => {}
+    };
+    for (number, offers) in (0..).zip(&traffic.offers) {
+        let pixels = frame_of_number(frames, number)?.borrowed_pixels();
+        model.step(&FrameDelivery { offers, ..FrameDelivery::whole(pixels) }, &mut visit)?;
+    }
+    model.finish(&mut visit);
+    values.retain(|(clock, ..)| *clock < recording.clocks());
+    values.sort_unstable();
+    let is_equal = |value: &&PortValue| values.binary_search(value).is_ok();
+    let equal = expected.iter().filter(is_equal).count();
+    let compared = expected.len().max(values.len());
+    Ok(OutputAgreement { compared: compared as u64, differing: (compared - equal) as u64 })
+}
+
+fn append_decisions(run: &DecisionRun<'_>, values: &mut Vec<PortValue>) {
+    let FrameOutcome { srs, trs, active, .. } = run.outcome;
+    for (clock, region) in run.regions.iter() {
+        let bits =
+            [(ComparedPort::Srs, srs), (ComparedPort::Trs, trs), (ComparedPort::Active, active)];
+        values.extend(bits.map(|(port, bits)| (clock, region, port, bits[region as usize].into())));
+    }
+}
+
+fn append_words(design: &Design, run: &WordRun<'_>, values: &mut Vec<PortValue>) {
+    let port_pixels = match design.hardware() {
+        Hardware::Pipelined(_) | Hardware::Serial(_) => 1,
+        Hardware::Raster(own) => own.pixels_per_clock as usize,
+    };
+    let mut pixels = Vec::new();
+    for (clock, region) in run.senders() {
+        pixels.clear();
+        run.append_values(region, &mut pixels);
+        let words = pixels.chunks_exact((pixels.len() / run.words as usize).max(1));
+        values.extend((0..).zip(words).map(|(place, word)| {
+            // The left pixel has the lowest bits. A mean is on all pixels of the port.
+            let shifts = (0..).step_by(design.pixel_bits() as usize);
+            let pixels = shifts.zip(word.iter().cycle().take(port_pixels));
+            let value = pixels.map(|(shift, &pixel)| u64::from(pixel) << shift).sum();
+            (clock + place * run.word_step, region, ComparedPort::ForwardPixel, value)
+        }));
+    }
+}
+
+/// Returns the decisions and the words of a recording.
+fn recorded_values(design: &Design, recording: &Recording) -> Result<Vec<PortValue>, CosimError> {
+    let (mut clock, mut values, mut is_word_waiting) = (0, Vec::new(), false);
+    let sink = field_of_role(recording.inputs(), PortRole::ForwardReady);
+    for_each_clock(recording, |input, record| {
+        let record = OutputRecord { design, layout: recording.outputs(), record };
+        record.append_decisions(clock, &mut values);
+        // A word stays on the ports until the sink takes it.
+        let is_taken = sink.is_none_or(|field| field.get(input, 0) == 1);
+        if is_taken || !is_word_waiting {
+            record.append_words(clock, &mut values);
+        }
+        is_word_waiting = record.value(PortRole::ForwardValid, 0) == Some(1);
+        clock += 1;
+    })?;
+    Ok(values)
+}
+
+/// The outputs at one clock of a recording.
+struct OutputRecord<'a> {
+    design: &'a Design,
+    layout: &'a RecordLayout,
+    record: &'a [u8],
+}
+
+impl OutputRecord<'_> {
+    /// Returns the value of an output, or `None` if the core does not have it.
+    fn value(&self, role: PortRole, lane: u32) -> Option<u64> {
+        field_of_role(self.layout, role).map(|field| field.get(self.record, lane))
+    }
+
+    /// Returns the value of an output that has the number of a region or of a slot.
+    fn number(&self, role: PortRole) -> Option<u32> {
+        self.value(role, 0).and_then(|number| u32::try_from(number).ok())
+    }
+
+    fn append_decisions(&self, clock: u64, values: &mut Vec<PortValue>) {
+        if self.value(PortRole::DecisionValid, 0) != Some(1) {
+            return;
+        }
+        let number = self.number(PortRole::Region);
+        // Without a port for the number of the region, all regions are decided together.
+        let lanes = if number.is_some() { 1 } else { self.design.regions() };
+        for lane in 0..lanes {
+            let ports = [
+                (ComparedPort::Srs, PortRole::Srs),
+                (ComparedPort::Trs, PortRole::Trs),
+                (ComparedPort::Active, PortRole::Active),
+            ];
+            let region = number.unwrap_or(lane);
+            let value = |role| self.value(role, lane).unwrap_or_default();
+            values.extend(ports.map(|(port, role)| (clock, region, port, value(role))));
+        }
+    }
+
+    fn append_words(&self, clock: u64, values: &mut Vec<PortValue>) {
+        let lanes = field_of_role(self.layout, PortRole::ForwardValid);
+        for lane in 0..lanes.map_or(0, |field| field.port.lanes) {
+            if self.value(PortRole::ForwardValid, lane) == Some(1) {
+                let slot = self.number(PortRole::ForwardSlot).unwrap_or_default();
+                let region = self.number(PortRole::ForwardRegion);
+                let region = region.unwrap_or(lane * self.design.slots() + slot);
+                let value = self.value(PortRole::ForwardPixel, lane).unwrap_or_default();
+                values.push((clock, region, ComparedPort::ForwardPixel, value));
+            }
+        }
+    }
+}
+
+/// The pauses of the source and the stalls of the sink in a recording.
+#[derive(Debug, Default)]
+struct RecordedTraffic {
+    /// The pauses of each frame. The last frame may be cut.
+    offers: Vec<Vec<BeatOffer>>,
+    stalls: Vec<Range<u64>>,
+}
+
+impl RecordedTraffic {
+    fn read(design: &Design, recording: &Recording) -> Result<Self, CosimError> {
+        let input = |role| field_of_role(recording.inputs(), role);
+        let [valid, reset, sink] =
+            [PortRole::Valid, PortRole::Reset, PortRole::ForwardReady].map(input);
+        let ready = field_of_role(recording.outputs(), PortRole::Ready);
+        let beats = design.timing().pixels_per_frame();
+        let (mut traffic, mut clock, mut taken) = (Self::default(), 0, 0);
+        // The source pauses if it offers nothing although the core would take a beat.
+        let (mut is_ready, mut has_paused) = (true, true);
+        for_each_clock(recording, |input, output| {
+            let is_high = |field: Option<&RecordField>, default| {
+                field.map_or(default, |field| field.get(input, 0) == 1)
+            };
+            if !is_high(sink, true) {
+                traffic.stalls.push(clock..clock + 1);
+            }
+            let is_in_reset = is_high(reset, false);
+            if is_ready && is_high(valid, true) && !is_in_reset {
+                if taken % beats == 0 {
+                    traffic.offers.push(Vec::new());
+                }
+                if let Some(offers) = traffic.offers.last_mut()
+                    && has_paused
+                {
+                    offers.push(BeatOffer { beat: taken % beats, clock });
+                }
+                taken += 1;
+                has_paused = false;
+            } else {
+                has_paused |= is_ready;
+            }
+            is_ready = ready.is_none_or(|field| field.get(output, 0) == 1);
+            clock += 1;
+        })?;
+        if let (rest @ 1.., Some(offers)) = (taken % beats, traffic.offers.last_mut()) {
+            offers.push(BeatOffer { beat: rest, clock: u64::MAX });
+        }
+        Ok(traffic)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::benchmark::random_frames;
+    use crate::level::CosimLevel;
+    use crate::stimulus::Stimulus;
     use foveate_design::DesignConfig;
 
     #[test]
@@ -121,5 +409,30 @@ mod tests {
         let mut other = frames.clone();
         other.swap(0, 1);
         assert!(engine_agreement(&design, &frames, &other).unwrap().differing > 0);
+    }
+
+    #[test]
+    fn decisions_and_words_of_other_frames_are_noticed() {
+        for keys in [
+            "frame={width=16,height=16}",
+            "frame={width=16,height=16}\nhardware={organization='serial',fold=2}",
+            "frame={width=40,height=30}\nhardware={organization='raster',sync=true}",
+        ] {
+            let design = DesignConfig::from_toml(keys).unwrap().validate().unwrap();
+            let frames = random_frames(&design, 1, 3).unwrap();
+            let stimulus = Stimulus {
+                level: CosimLevel::Full,
+                rounds: 0,
+                frames: frames.clone(),
+                ..Stimulus::default()
+            };
+            let recording = stimulus.record(&design, &mut |_, _| {}).unwrap();
+            let mut frames: Vec<ByteFrame> = frames.iter().map(ByteFrame::from).collect();
+            let same = port_agreement(&design, &frames, &recording).unwrap();
+            assert_eq!((same.differing, same.compared > 500), (0, true), "{same:?}, {keys}");
+            frames.swap(0, 1);
+            let other = port_agreement(&design, &frames, &recording).unwrap();
+            assert!(other.differing > 0, "{keys}");
+        }
     }
 }

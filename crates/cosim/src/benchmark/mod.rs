@@ -18,26 +18,19 @@
 //! pass, and then timed from memory, without files, comparison or reading of outputs.
 
 mod benchmark_report;
-mod clock_rates;
-mod cycle_level;
-mod external_tools;
 mod functional_levels;
 mod netlist_level;
 mod outcome_comparison;
 mod pass_timer;
-mod peak_memory;
 #[cfg(test)]
 mod planted_differences;
-mod random_frames;
-mod rtl_level;
-mod transaction_level;
 mod unpacked_inputs;
 
 pub use benchmark_report::{
     BENCHMARK_FORMAT_VERSION, BenchmarkLevel, BenchmarkReport, LevelMeasurement, LevelRow,
 };
-pub use external_tools::ExternalTools;
-pub use random_frames::random_frames;
+pub use netlist_level::ExternalTools;
+pub use unpacked_inputs::random_frames;
 
 use std::time::Duration;
 
@@ -92,15 +85,15 @@ impl Benchmark {
         let recording = self.record_vectors(timer)?;
         let vectors = UnpackedInputs::read(design, &recording)?;
         progress("timed model");
-        rows.push(transaction_level::run_transaction_level(
+        rows.push(functional_levels::run_transaction_level(
             design, frames, &recording, &vectors, timer,
         )?);
         progress("cycle-level model");
-        rows.push(cycle_level::run_cycle_level(design, frames, &recording, &vectors, timer)?);
+        rows.push(functional_levels::run_cycle_level(design, frames, &recording, &vectors, timer)?);
         progress("RTL: building and running Verilator's model");
         rows.push(match missing_tool(tools.toolchain, &[Tool::Verilator, Tool::Cxx])? {
             Some(why) => LevelRow::not_run(BenchmarkLevel::Rtl, "Verilator", why),
-            None => rtl_level::run_rtl(design, &recording, &vectors, tools, timer)?,
+            None => netlist_level::run_rtl(design, &recording, &vectors, tools, timer)?,
         });
         if self.runs_netlist {
             progress("netlist: Yosys and Icarus");

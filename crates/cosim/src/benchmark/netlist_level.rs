@@ -1,21 +1,25 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The netlist that Yosys makes of one RPU, of one serial lane, or of a small raster core,
-//! simulated in Icarus with the first regions of the same frames.
-
-use foveate_tools::ScratchFolder;
-use std::time::Instant;
-
-use foveate_design::{ArrayStructure, Design};
-use foveate_pixels::Frame;
+//! simulated in Icarus with the first regions of the same frames. The Verilog in Verilator,
+//! over the same clocks: `-O3`, one thread, the RPU compiled once. The external programs that
+//! run some of the levels. The rates of a level with clocks.
 
 use super::benchmark_report::{BenchmarkLevel, LevelMeasurement, LevelRow};
-use super::external_tools::{ExternalTools, RUN_TIME_LIMIT};
+use super::pass_timer::{PassTimer, PassTimes};
+use super::unpacked_inputs::UnpackedInputs;
 use crate::error::CosimError;
 use crate::job::CosimJob;
 use crate::level::CosimLevel;
-use crate::simulation::Simulator;
+use crate::recording::Recording;
+use crate::simulation::{SimulationRun, Simulator};
 use crate::stimulus::Stimulus;
 use crate::timed_run::OutputAgreement;
+use foveate_design::{ArrayStructure, Design};
+use foveate_pixels::Frame;
+use foveate_tools::verilator::OptimizationLevel;
+use foveate_tools::{Cache, ScratchFolder, Toolchain};
+use std::path::Path;
+use std::time::{Duration, Instant};
 
 /// Returns the name of the level in reports.
 pub(super) fn level_name(design: &Design) -> String {
@@ -80,5 +84,78 @@ fn design_of_unit(design: &Design) -> Result<Design, CosimError> {
             Ok(config.validate()?)
         }
         ArrayStructure::SharedLogic => Ok(design.lone_unit()),
+    }
+}
+
+/// Builds the simulation, compares every port at every clock, and then times it.
+#[allow(clippy::cast_precision_loss, reason = "rates need no 53 bits")]
+pub(super) fn run_rtl(
+    design: &Design,
+    recording: &Recording,
+    vectors: &UnpackedInputs,
+    tools: ExternalTools<'_>,
+    timer: PassTimer<'_>,
+) -> Result<LevelRow, CosimError> {
+    let stimulus = Stimulus { level: CosimLevel::Full, ..Stimulus::default() };
+    let dut = CosimJob::new(design, stimulus, Path::new(""))?.dut(design);
+    let run = SimulationRun {
+        simulator: Simulator::Verilator,
+        seed: 1,
+        trace: false,
+        toolchain: tools.toolchain,
+        cache: tools.cache,
+        limit: RUN_TIME_LIMIT,
+        optimize: OptimizationLevel::FastRun,
+    };
+    let timed = run.run_timed(&dut, recording, timer.min_time)?;
+    let time = PassTimes { passes: timed.passes, seconds: timed.memory_seconds };
+    let measured = LevelMeasurement {
+        peak_bytes: timed.peak_bytes,
+        build_seconds: Some(timed.build.as_secs_f64()),
+        is_cached: timed.is_cached,
+        files_clocks_per_second: Some(vectors.clocks() as f64 / timed.file_pass.as_secs_f64()),
+        unpacking_share: Some(timed.unpacking_seconds / timed.memory_seconds),
+        ..clock_rates(design, vectors, time)
+    };
+    let name = short_version(&timed.version);
+    Ok(LevelRow::measured(
+        BenchmarkLevel::Rtl,
+        &name,
+        measured.with_agreement(BenchmarkLevel::Cycle, timed.agreement),
+    ))
+}
+
+/// Shortens a banner to the name and the version, such as `Verilator 5.006`.
+fn short_version(banner: &str) -> String {
+    banner.split_whitespace().take(2).collect::<Vec<_>>().join(" ")
+}
+
+pub(super) const RUN_TIME_LIMIT: Duration = Duration::from_secs(3600);
+
+/// The tools of the machine, and the cache of their builds.
+#[derive(Clone, Copy, Debug)]
+pub struct ExternalTools<'a> {
+    /// The toolchain that finds and runs the tools. Its flag stops the benchmark.
+    pub toolchain: &'a Toolchain,
+    /// The cache of finished builds.
+    pub cache: &'a Cache,
+}
+
+#[allow(clippy::cast_precision_loss, reason = "rates need no 53 bits")]
+pub(super) fn clock_rates(
+    design: &Design,
+    vectors: &UnpackedInputs,
+    time: PassTimes,
+) -> LevelMeasurement {
+    let passes_per_second = time.passes as f64 / time.seconds;
+    let frames_per_second = vectors.streamed_frames as f64 * passes_per_second;
+    let pixels = f64::from(design.width()) * f64::from(design.height());
+    LevelMeasurement {
+        frames_per_second,
+        clocks_per_second: Some(vectors.clocks() as f64 * passes_per_second),
+        pixels_per_second: frames_per_second * pixels,
+        passes: time.passes,
+        seconds: time.seconds,
+        ..LevelMeasurement::default()
     }
 }

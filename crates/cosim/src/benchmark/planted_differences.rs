@@ -11,10 +11,10 @@ use foveate_pixels::Frame;
 use foveate_tools::{Cache, Tool, Toolchain, testing::require_tools};
 
 use super::benchmark_report::LevelRow;
-use super::external_tools::ExternalTools;
+use super::netlist_level::ExternalTools;
 use super::pass_timer::PassTimer;
-use super::unpacked_inputs::UnpackedInputs;
-use super::{cycle_level, random_frames::random_frames, rtl_level};
+use super::unpacked_inputs::{UnpackedInputs, random_frames};
+use super::{functional_levels, netlist_level};
 use crate::level::CosimLevel;
 use crate::recording::Recording;
 use crate::stimulus::Stimulus;
@@ -65,7 +65,7 @@ impl ControlCase {
     }
 
     fn cycle_level_differences(&self, frames: &[Frame], timer: PassTimer<'_>) -> u64 {
-        let row = cycle_level::run_cycle_level(
+        let row = functional_levels::run_cycle_level(
             &self.design,
             frames,
             &self.recording,
@@ -80,7 +80,7 @@ impl ControlCase {
         let tools = ExternalTools { toolchain: &toolchain, cache: &cache };
         require_tools(&[Tool::Verilator, Tool::Cxx]).then(|| {
             let row =
-                rtl_level::run_rtl(&self.design, &self.recording, &self.vectors, tools, timer);
+                netlist_level::run_rtl(&self.design, &self.recording, &self.vectors, tools, timer);
             differing(&row.unwrap())
         })
     }

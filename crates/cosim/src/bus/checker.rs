@@ -4,9 +4,8 @@
 //! A packet is decoded, and its fields are encoded again, so that every byte of it is compared.
 //! Then the fields are compared with the [`FunctionalOutcome`] of its frame.
 
-use super::bus_mismatch::BusMismatch;
 use super::lossy_model::LossyModel;
-use super::port_record::{BusRecord, InterruptCount, RecordedPacket, SessionRecord};
+use super::replay::{BusMismatch, BusRecord, InterruptCount, RecordedPacket, SessionRecord};
 use super::thresholds::StaleThreshold;
 use super::traffic::{BusSession, ExpectedEventCount, ExpectedFrame, ExpectedRead, FrameFate};
 use crate::situations::{BusSituationCounts, EVENTS};

@@ -5,9 +5,9 @@
 //! A write is taken at every other clock. So each event is tried twice, at clocks of both parities,
 //! and meets a write in one of the two attempts.
 
+use super::frame_source::send_first_words;
 use super::scenes::{SceneBuilder, taken_frame};
 use super::traffic::{ExpectedEventCount, ExpectedFrame, FrameFate, Traffic};
-use super::video_damage::send_first_words;
 use crate::situations::{can_drop_regions, can_drop_rows};
 use foveate_pixels::Frame;
 

@@ -2,12 +2,10 @@
 //! A run of a core on its buses, from the scenes to the report.
 
 use super::checker::{BusAgreement, BusChecker};
-use super::port_record::BusRecord;
-use super::program::program;
-use super::replay::BusReplay;
+use super::replay::{BusRecord, BusReplay};
 use super::scenes::{BusScene, OtherThresholds, SceneBuilder, cameras};
 use super::thresholds::{StaleThreshold, other_threshold_designs, threshold_sweep};
-use super::traffic::Traffic;
+use super::traffic::{Traffic, program};
 use crate::error::CosimError;
 use crate::job::CosimProgress;
 use crate::level::CosimLevel;

@@ -3,25 +3,20 @@
 //! frames and stalls, and every packet that leaves must say what the functional model says.
 //!
 //! A [`BusJob`] plays [`scenes`], each a [`Traffic`](traffic::Traffic), in Verilator. The recorded
-//! port activity ([`port_record`]) is [checked](checker) packet by packet: each packet is decoded,
+//! port activity ([`replay`]) is [checked](checker) packet by packet: each packet is decoded,
 //! and its fields are compared with the outcome of the model, which makes no packets. The clock at
 //! which a packet leaves is not compared, because no contract defines it. Each packet must leave
 //! whole, in order and once.
 
-mod bus_mismatch;
 mod checker;
 mod class_scenes;
 mod event_clears;
 mod frame_source;
 mod job;
 mod lossy_model;
-mod port_record;
-mod program;
 mod replay;
 mod scenes;
-mod threshold_key;
 mod thresholds;
 mod traffic;
-mod video_damage;
 
 pub use job::BusJob;

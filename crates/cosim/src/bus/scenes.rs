@@ -2,9 +2,8 @@
 //! The directed scenes on the buses of a core. Every scene is played in a run of its own.
 
 use super::checker::TICK_RATE;
-use super::frame_source::BusFrameSource;
+use super::frame_source::{BusFrameSource, VideoDamage};
 use super::traffic::{ExpectedFrame, ExpectedRead, FrameFate, FrameMaps, Traffic};
-use super::video_damage::VideoDamage;
 use crate::stimulus::Random;
 use foveate_camera::{Camera, RegionClass};
 use foveate_design::{Design, RasterDesign, RasterTiming};

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The traffic on the buses of a core, in order, with the results that it must have.
+//! The traffic on the buses of a core, in order, with the results that it must have. The C++
+//! program that drives the buses of the model that Verilator makes of the Verilog.
 
+use crate::harness::render;
+use askama::Template;
 use foveate_camera::RegionClass;
 use foveate_design::RasterDesign;
 use foveate_pixels::Frame;
@@ -365,4 +368,19 @@ impl<'a> Traffic<'a> {
 
 pub(super) fn rows(frame: &Frame) -> impl Iterator<Item = &[u16]> {
     (0..frame.height()).map(|y| frame.row(y))
+}
+
+#[derive(Template)]
+#[template(path = "axi.cpp")]
+struct BusProgram<'a> {
+    top: &'a str,
+    video_words: u32,
+    has_store: bool,
+}
+
+/// Returns the source of the program for the module `top`.
+pub(super) fn program(top: &str, design: RasterDesign<'_>) -> String {
+    let bits = (design.pixels_per_clock() * design.pixel_bits()).next_multiple_of(8);
+    let has_store = design.has_external_store();
+    render(&BusProgram { top, video_words: bits.div_ceil(32), has_store })
 }

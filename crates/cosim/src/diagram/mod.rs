@@ -2,21 +2,19 @@
 //! The timing diagram of a core: the ports of the cycle-level model during a frame, as WaveDrom
 //! source and as a drawing.
 //!
-//! [`trace`] plays frames to the model and keeps every clock. [`column_choice`] leaves out the
-//! clocks in which nothing begins or ends, [`wave`] writes the others as WaveJSON, and [`svg`] as
+//! [`trace`] plays frames to the model and keeps every clock. It leaves out the
+//! clocks in which nothing begins or ends, and [`svg`] writes the others as WaveJSON and as
 //! SVG. No number is written by hand, so the diagram agrees with the model.
 
-mod column_choice;
 mod svg;
 mod trace;
-mod wave;
 
 use crate::error::CosimError;
 use foveate_design::Design;
 use foveate_emit::SourceFile;
 use std::sync::atomic::AtomicBool;
+use svg::WaveDiagram;
 use trace::PortTrace;
-use wave::WaveDiagram;
 
 /// Returns `timing.json`, which WaveDrom reads, and `timing.svg`, the drawing of it. Equal designs
 /// give equal files.
@@ -25,7 +23,7 @@ use wave::WaveDiagram;
 /// Fails if `cancel` is set; [`CosimError::is_interrupted`] is then true.
 pub fn timing_diagram(design: &Design, cancel: &AtomicBool) -> Result<[SourceFile; 2], CosimError> {
     let trace = PortTrace::record(design, cancel)?;
-    let columns = column_choice::columns(&trace);
+    let columns = trace::columns(&trace);
     let wave = WaveDiagram::from_trace(&trace, &columns);
     let file = |path: &str, contents| SourceFile { path: path.to_owned(), contents };
     Ok([file("timing.json", wave.json()), file("timing.svg", svg::draw_svg(&wave))])

@@ -13,10 +13,10 @@ use foveate_media::{ClipReading, InputOptions, RunClips};
 use foveate_pixels::Frame;
 use foveate_tools::{Cache, Toolchain};
 
+use super::energy_sum::NetElectrics;
 use crate::energy::activity::NetActivity;
 use crate::energy::energy_sum::{EnergySum, PartEnergies};
 use crate::energy::error::EnergyError;
-use crate::energy::net_electrics::NetElectrics;
 use crate::energy::report::{ENERGY_FORMAT_VERSION, EnergyReport, StretchEnergy};
 use crate::energy::simulated_netlist::SimulatedNetlist;
 use crate::energy::stretches::{ActivityClip, ClipStretch, FRAMES_BEFORE};

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The energy of an activity: the sum over all pins of the energies that the library gives for their
-//! changes, and of those that charge the inputs at each net.
-
-use foveate_estimate::{CellPin, InternalEnergy, count_to_f64};
-use serde::{Deserialize, Serialize};
+//! The energy of an activity: the sum over all pins of the energies that the library gives for
+//! their changes, and of those that charge the inputs at each net. The loads and transition
+//! times of nets.
 
 use crate::energy::activity::NetActivity;
-use crate::energy::net_electrics::NetElectrics;
 use crate::energy::simulated_netlist::{SimulatedGate, SimulatedNetlist};
+use foveate_estimate::{CellPin, InternalEnergy, TimingSense, count_to_f64};
+use serde::{Deserialize, Serialize};
 
 /// Energies of the parts of a circuit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -145,19 +144,58 @@ fn input_slew(gate: &SimulatedGate<'_>, energy: &InternalEnergy, electrics: &Net
     input.map_or(0.0, |&pin| electrics.slews[gate.nets[pin]].iter().sum::<f64>() / 2.0)
 }
 
+/// The loads and transition times of nets, in the units of the library.
+pub(crate) struct NetElectrics {
+    /// The sum of the capacitances of the inputs at a net.
+    pub(crate) loads: Vec<f64>,
+    /// The times of a rise and of a fall, the longest of all ways to the net. Ports of the netlist and the
+    /// clock have a time of 0, as in OpenSTA.
+    pub(crate) slews: Vec<[f64; 2]>,
+}
+
+impl NetElectrics {
+    pub(crate) fn of_netlist(netlist: &SimulatedNetlist<'_>) -> Self {
+        let mut loads = vec![0.0; netlist.nets];
+        for gate in &netlist.gates {
+            for (pin, net) in gate.inputs() {
+                loads[net] += gate.model.pins[pin].capacitance;
+            }
+        }
+        let mut slews = vec![[0.0_f64; 2]; netlist.nets];
+        for &number in netlist.flip_flops.iter().chain(&netlist.order) {
+            let gate = &netlist.gates[number];
+            for (pin, net) in gate.outputs() {
+                let mut longest = [0.0_f64; 2];
+                for transition in &gate.model.pins[pin].transitions {
+                    let input = slews[gate.nets[transition.related_pin]];
+                    for (edge, table) in transition.tables.iter().enumerate() {
+                        let from = match transition.sense {
+                            TimingSense::Same => input[edge],
+                            TimingSense::Opposite => input[1 - edge],
+                            TimingSense::Any => input[0].max(input[1]),
+                        };
+                        let slew =
+                            table.as_ref().map_or(0.0, |table| table.value(from, loads[net]));
+                        longest[edge] = longest[edge].max(slew);
+                    }
+                }
+                slews[net] = longest;
+            }
+        }
+        Self { loads, slews }
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use foveate_estimate::{FlatNetlist, LibertyLibrary};
-    use foveate_tools::{
-        Cache, Tool, Toolchain,
-        opensta::{self, OpenStaJob},
-        testing::require_tools,
-    };
-
     use super::*;
     use crate::energy::activity::ActivityCounter;
     use crate::energy::gate_simulation::GateSimulation;
     use crate::energy::testing::{OSU018, flat_netlist, has_library, tiny_library};
+    use foveate_estimate::{FlatNetlist, LibertyLibrary};
+    use foveate_tools::opensta::{self, OpenStaJob};
+    use foveate_tools::testing::require_tools;
+    use foveate_tools::{Cache, Tool, Toolchain};
 
     /// A flip-flop that changes at every clock.
     const DIVIDER: &str = "DFF f1 (.CLK(clk), .D(n2), .Q(q));

@@ -12,8 +12,6 @@ mod energy_job;
 mod energy_sum;
 mod error;
 mod gate_simulation;
-mod net_electrics;
-mod render;
 mod report;
 mod simulated_netlist;
 mod stretches;
@@ -23,6 +21,8 @@ mod unit_activity;
 
 pub use energy_job::{EnergyJob, measure_energy};
 pub use error::EnergyError;
-pub use render::{render_energy_markdown, render_energy_text};
-pub use report::{ENERGY_FORMAT_VERSION, EnergyReport, PartEnergies, StretchEnergy};
+pub use report::{
+    ENERGY_FORMAT_VERSION, EnergyReport, PartEnergies, StretchEnergy, render_energy_markdown,
+    render_energy_text,
+};
 pub use stretches::ActivityClip;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The report on the energy of a design.
-
-use serde::{Deserialize, Serialize};
+//! The report on the energy of a design. Renders the report as text for a terminal and as
+//! Markdown.
 
 pub use crate::energy::energy_sum::PartEnergies;
+use foveate_estimate::{ReportTable, header, wrap};
+use foveate_output::number_text::{grouped, real_number};
+use serde::{Deserialize, Serialize};
 
 /// The version of the JSON report. It grows when a field changes its meaning or is removed.
 pub const ENERGY_FORMAT_VERSION: u32 = 1;
@@ -63,4 +65,109 @@ pub struct StretchEnergy {
     /// The energy of one unit in a clock, in picojoules, if every net changed at every tenth clock, which
     /// tools assume without a measured activity.
     pub default_activity_pj_per_clock: f64,
+}
+
+const COLUMNS: [&str; 7] =
+    ["frames", "sent %", "pJ/clock", "nJ/region", "mW stops", "mW runs", "pJ at 0.1"];
+const PART_COLUMNS: [&str; 4] = ["clock", "memory", "other FF", "logic"];
+
+/// Returns the report as tables for a terminal of `width` columns; 80 columns are enough.
+#[must_use]
+pub fn render_energy_text(report: &EnergyReport, width: usize) -> String {
+    let mut text =
+        format!("{}\n{}\n", energy_table(report).text(width), part_table(report).text(width));
+    text.extend(sentences(report).iter().map(|sentence| wrap(sentence, width)));
+    text
+}
+
+/// Returns the report as Markdown.
+#[must_use]
+pub fn render_energy_markdown(report: &EnergyReport) -> String {
+    let mut text =
+        format!("{}\n{}\n", energy_table(report).markdown(), part_table(report).markdown());
+    text.extend(sentences(report).iter().map(|sentence| format!("* {sentence}\n")));
+    text
+}
+
+fn energy_table(report: &EnergyReport) -> ReportTable {
+    ReportTable {
+        title: format!("Energy on {} frames of {}", grouped(report.frames), report.clip),
+        header: header("stretch", &COLUMNS),
+        rows: report.stretches.iter().map(energy_row).collect(),
+        note: Some(format!(
+            "sent %: the share of regions that are sent. pJ/clock: the energy of one {} in a clock. nJ/region: the \
+             energy of a region in a frame. mW: the power of the array at {} frames/s, if its clock stops when a \
+             frame is done, and if it always runs at {} MHz. pJ at 0.1: pJ/clock if every net changed at every tenth \
+             clock, as tools assume.",
+            report.unit,
+            real_number(report.frame_rate, 1),
+            real_number(report.clock_mhz, 1),
+        )),
+    }
+}
+
+fn energy_row(stretch: &StretchEnergy) -> Vec<String> {
+    let last = stretch.first_frame + stretch.frames - 1;
+    let running = stretch.running_clock_mw.map_or("-".to_owned(), |power| real_number(power, 3));
+    vec![
+        stretch.name.clone(),
+        format!("{}-{last}", stretch.first_frame),
+        real_number(100.0 * stretch.sent_share, 1),
+        real_number(stretch.unit_pj_per_clock.total(), 2),
+        real_number(stretch.region_nj_per_frame.total(), 3),
+        real_number(stretch.stopped_clock_mw, 3),
+        running,
+        real_number(stretch.default_activity_pj_per_clock, 2),
+    ]
+}
+
+fn part_table(report: &EnergyReport) -> ReportTable {
+    let row = |stretch: &StretchEnergy| {
+        let parts = stretch.region_nj_per_frame;
+        let share = |part: f64| real_number(100.0 * part / parts.total().max(f64::MIN_POSITIVE), 1);
+        let shares = [parts.clock, parts.memory, parts.flip_flops, parts.logic].map(share);
+        std::iter::once(stretch.name.clone()).chain(shares).collect()
+    };
+    ReportTable {
+        title: "Parts of the energy of a region, in %".to_owned(),
+        header: header("stretch", &PART_COLUMNS),
+        rows: report.stretches.iter().map(row).collect(),
+        note: Some(
+            "clock: the clock pins of all flip-flops. memory: the flip-flops that are words of memories. other FF: the \
+             other flip-flops. logic: the gates."
+                .to_owned(),
+        ),
+    }
+}
+
+fn sentences(report: &EnergyReport) -> Vec<String> {
+    let clocks_per_frame = report.stretches.last().map_or(0.0, |stretch| stretch.clocks_per_frame);
+    let mut all = vec![format!(
+        "{} of {} {}s were simulated as gates, and all their outputs were those of the model. A frame takes {} clocks. \
+         Leakage of {} uW is part of every power.",
+        grouped(report.simulated_units),
+        grouped(report.units),
+        report.unit,
+        real_number(clocks_per_frame, 0),
+        real_number(report.leakage_mw * 1000.0, 3),
+    )];
+    if report.unmeasured_cells > 0 {
+        all.push(format!(
+            "The energy of {} cells that the RPUs share is in no figure.",
+            grouped(report.unmeasured_cells)
+        ));
+    }
+    if report.stretches.iter().any(|stretch| stretch.running_clock_mw.is_none()) {
+        all.push(format!(
+            "A clock of {} MHz is too slow for {} frames/s.",
+            real_number(report.clock_mhz, 3),
+            real_number(report.frame_rate, 1)
+        ));
+    }
+    all.push(
+        "Not included: wires, the clock tree, changes of a net before it settles, what drives the inputs, pixels and \
+         converters. So energies are lower bounds."
+            .to_owned(),
+    );
+    all
 }

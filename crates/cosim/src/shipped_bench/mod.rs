@@ -2,28 +2,24 @@
 //! The benches that come with a generated core: one of `rpu` and one of `rcm`, each with vectors
 //! that contain active, held and blank regions.
 //!
-//! An array of copies of `rpu` is replayed as a small [`grid`] of copies, any other array whole.
+//! An array of copies of `rpu` is replayed as a small grid of copies, any other array whole.
 //! The [`script`] chooses frames that lead to active, held and blank regions under the thresholds
 //! of the design. The [`tally`] counts what the vectors contain, and a bench whose vectors miss
 //! something never prints `PASS`.
 
-mod drawn_places;
 mod drawn_region;
-mod grid;
 mod player;
 mod script;
 mod tally;
-mod vector_recorder;
 
 use crate::error::CosimError;
 use crate::harness::{annotated_bench, bench_file};
 use crate::level::CosimLevel;
 use foveate_design::{ArrayStructure, Design, Port};
 use foveate_emit::{Prefix, SourceFile, Top};
-use player::ScriptPlayer;
+use player::{ScriptPlayer, VectorRecorder};
 use script::{BenchScript, MIN_FRAMES_PER_SCRIPT};
 use std::sync::atomic::AtomicBool;
-use vector_recorder::VectorRecorder;
 
 pub use tally::{RegionLosses, VectorTally};
 
@@ -58,7 +54,7 @@ impl ShippedBench {
     /// # Errors
     /// Fails if no small grid can stand for the grid of the design.
     pub fn levels(design: &Design) -> Result<Vec<CosimLevel>, CosimError> {
-        let array = grid::bench_design(design, Top::Rcm)?;
+        let array = drawn_region::bench_design(design, Top::Rcm)?;
         let (columns, rows) = (array.columns(), array.rows());
         let array = CosimLevel::Rcm { columns, rows };
         let array = if array.is_whole(design) { CosimLevel::Full } else { array };
@@ -82,7 +78,7 @@ impl ShippedBench {
         cancel: &AtomicBool,
     ) -> Result<Self, CosimError> {
         let module = prefix.prefixed_name(top.module());
-        let part = grid::bench_design(design, top)?;
+        let part = drawn_region::bench_design(design, top)?;
         let ports = top.ports(&part);
         let mut take = BenchVectors::record(&part, top, &ports, false, cancel)?;
         if take.is_played && take.tally.shortcoming(&part).is_some() {

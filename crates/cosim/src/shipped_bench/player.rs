@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The player of a script: it offers the frames to the cycle-level model, and records the result.
+//! The player of a script: it offers the frames to the cycle-level model, and records the
+//! result. The vectors of a bench while they are recorded: packed into text, and counted.
 
 use super::script::{BenchFrame, BenchScript, BenchSequence, MIN_FRAMES_PER_SCRIPT};
-use super::vector_recorder::VectorRecorder;
+use super::tally::{TallyCounter, VectorTally};
+use crate::codec::VectorPacker;
 use crate::error::CosimError;
+use crate::layout::RecordLayout;
+use crate::situations::SituationMonitor;
 use crate::stimulus::{
-    ClassChoice, FrameFeed, FrameLimit, GapPattern, ModelDriver, Random, SequenceEnd,
-    SequenceSurroundings, SinkPattern, StoreFault, ThresholdAim, UnusedInputs,
+    ClassChoice, ClockReceiver, FrameFeed, FrameLimit, GapPattern, ModelDriver, Random,
+    SequenceEnd, SequenceSurroundings, SinkPattern, StoreFault, ThresholdAim, UnusedInputs,
 };
-use foveate_design::{Design, Hardware, RasterTiming};
+use foveate_design::{Design, Hardware, Port, RasterTiming};
 use foveate_emit::Top;
 use foveate_model::region_border;
+use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 /// The number of beats of a frame that a reset discards.
@@ -152,4 +157,57 @@ fn gaps(part: &Design) -> GapPattern {
     let beats = usize::try_from(part.timing().pixels_per_frame()).unwrap_or(usize::MAX);
     let period = if beats < LONG_FRAME_BEATS { PAUSE_PERIOD } else { LONG_FRAME_PAUSE_PERIOD };
     GapPattern::Periodic(period.min(beats))
+}
+
+/// A recorder of clocks, which keeps the vectors in memory.
+pub(super) struct VectorRecorder {
+    inputs: RecordLayout,
+    outputs: RecordLayout,
+    packer: VectorPacker<Vec<u8>>,
+    counter: TallyCounter,
+    watch: SituationMonitor,
+    clocks: u64,
+}
+
+impl VectorRecorder {
+    pub(super) fn new(part: &Design, top: Top, ports: &[Port]) -> Self {
+        let (inputs, outputs) = (RecordLayout::inputs(ports), RecordLayout::outputs(ports));
+        Self {
+            packer: VectorPacker::new(&inputs, &outputs, Vec::new()),
+            counter: TallyCounter::new(part, &outputs),
+            watch: SituationMonitor::new(part, top, &inputs, &outputs),
+            inputs,
+            outputs,
+            clocks: 0,
+        }
+    }
+
+    /// Returns the counts of what the vectors contain, the number of clocks, and the vectors as
+    /// text.
+    pub(super) fn finish(self) -> Result<(VectorTally, u64, String), CosimError> {
+        let bytes = self.packer.finish();
+        let bytes = bytes.map_err(CosimError::io("write", Path::new("vectors")))?;
+        let text = String::from_utf8_lossy(&bytes).into_owned();
+        let situations = self.watch.occurrences();
+        let tally = self.counter.finish(&self.outputs);
+        Ok((VectorTally { situations, ..tally }, self.clocks, text))
+    }
+}
+
+impl ClockReceiver for VectorRecorder {
+    fn inputs(&self) -> &RecordLayout {
+        &self.inputs
+    }
+
+    fn outputs(&self) -> &RecordLayout {
+        &self.outputs
+    }
+
+    fn add_clocks(&mut self, input: &[u8], output: &[u8], clocks: u64) -> Result<(), CosimError> {
+        self.counter.count_clock(&self.outputs, output);
+        self.watch.add_clocks(input, output, clocks);
+        self.clocks += clocks;
+        let pushed = self.packer.push(input, output, clocks);
+        pushed.map_err(CosimError::io("write", Path::new("vectors")))
+    }
 }

@@ -2,8 +2,9 @@
 //! The choice of the frames of a bench: pictures that the design finds relevant, the same ones
 //! again, other ones, and flat ones, so that regions become active, are held, and are blanked.
 
-use super::drawn_places::DrawnPlaces;
-use super::drawn_region::{DrawnRegion, ThresholdPair, draw_region, flat_square, threshold_pair};
+use super::drawn_region::{
+    DrawnPlaces, DrawnRegion, ThresholdPair, draw_region, flat_square, threshold_pair,
+};
 use crate::situations::{has_sink, largest_min_count};
 use crate::stimulus::{
     ClassChoice, FrameDelivery, PatternGenerator, Random, SequenceEnd, SinkPattern,

@@ -7,10 +7,8 @@
 //! not depend on how stimuli are made.
 
 mod bus_situations;
-mod class_activity;
 mod monitor;
 mod occurrence;
-mod places;
 mod port_situations;
 mod region_traces;
 mod watched_ports;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The ports that the monitor of situations watches, and their values at a clock.
 
-use crate::field::RecordField;
-use crate::layout::RecordLayout;
+use crate::layout::{RecordField, RecordLayout};
 use foveate_design::PortRole;
 
 fn is_threshold(role: PortRole) -> bool {

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The order in which the pixel port takes a frame.
+//! The order in which the pixel port takes a frame. The damage of frames for hardware that
+//! synchronizes to the start of a frame. The caller's frames, cut to the parts that the
+//! simulated hardware sees. The pauses between pixels and between frames.
 
+use self::BeatCount::{AllButOne, One, Some as Many};
+use self::FrameDelivery::{Long, Restarted, Short, Strays, Twice, Unmarked, Whole};
+use super::unused_inputs::Random;
+use crate::error::CosimError;
 use crate::level::CosimLevel;
 use foveate_design::{Design, Hardware, PipelinedDesign, PixelFeed, RasterDesign, SerialDesign};
-use foveate_model::region_stream;
+use foveate_model::{region_border, region_stream};
 use foveate_pixels::Frame;
 
 /// The order of the pixels of a frame at the pixel port, and the number taken at a time.
@@ -151,4 +157,246 @@ fn word_beats(
         }
     }
     words
+}
+
+/// The damage of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum FrameDelivery {
+    /// The whole frame, with its first beat marked.
+    Whole,
+    /// The frame without its last beats.
+    Short(BeatCount),
+    /// The whole frame, followed by beats of no frame.
+    Long(BeatCount),
+    /// The whole frame with its first beat twice, both of them marked.
+    Twice,
+    /// The whole frame, with a second beat marked, too.
+    Restarted,
+    /// The whole frame without a mark.
+    Unmarked,
+    /// A few beats of no frame, in place of the frame.
+    Strays,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum BeatCount {
+    One,
+    Some,
+    AllButOne,
+}
+
+impl FrameDelivery {
+    /// A frame without its last beat.
+    pub(crate) const ONE_BEAT_SHORT: Self = Short(One);
+    /// A frame with one beat too many.
+    pub(crate) const ONE_BEAT_LONG: Self = Long(One);
+
+    /// Returns the beats of a frame of `count` beats: each with its start mark, and its index in
+    /// the frame or `None` for a beat of no frame.
+    pub(super) fn beats(self, count: usize, random: &mut Random) -> Vec<(bool, Option<usize>)> {
+        let whole = |count: usize| (0..count).map(|place| (place == 0, Some(place)));
+        let mut any = |most: usize| 1 + random.index(most - 1);
+        let mut part = |part| match part {
+            One => 1,
+            Many => any(count - 1),
+            AllButOne => count - 1,
+        };
+        match self {
+            Whole => whole(count).collect(),
+            Short(missing) => whole(count - part(missing)).collect(),
+            Long(more) => {
+                let more = part(more);
+                whole(count).chain(stray_beats(more)).collect()
+            }
+            Twice => std::iter::once((true, Some(0))).chain(whole(count)).collect(),
+            Restarted => {
+                let again = any(count - 1);
+                whole(count).map(|(sof, place)| (sof || place == Some(again), place)).collect()
+            }
+            Unmarked => whole(count).map(|(_, place)| (false, place)).collect(),
+            Strays => stray_beats(any(count.min(9) - 1)).collect(),
+        }
+    }
+}
+
+fn stray_beats(count: usize) -> impl Iterator<Item = (bool, Option<usize>)> {
+    std::iter::repeat_n((false, None), count)
+}
+
+/// The largest number of clocks of all parts that go through a single lane or core; the parts are
+/// spread over the frame.
+const MAX_CLOCKS: u64 = 1 << 21;
+
+/// A part of the caller's frames, which goes through the simulated hardware as a sequence.
+#[derive(Clone, Debug)]
+pub(super) struct FramePart {
+    /// The name of its sequence.
+    pub(super) name: String,
+    /// The region of the part, or its first region; `None` if the part is a whole frame or a tile.
+    pub(super) region: Option<u32>,
+    /// The sides of the region at the frame's border, if these are an input.
+    pub(super) border: u8,
+    position: PartPosition,
+}
+
+/// The position of a part. Pixels beyond the frame repeat its border.
+#[derive(Clone, Copy, Debug)]
+enum PartPosition {
+    /// The upper left part of the frame, in the size of the simulated design.
+    UpperLeft,
+    /// A region with its halo.
+    Region(u32),
+    /// The regions of a lane, side by side, from this region on.
+    Lane(u32),
+    /// A tile at this place, in the size of the simulated design.
+    Tile { left: u32, top: u32 },
+}
+
+impl FramePart {
+    fn new(name: &str, region: Option<u32>, cut: PartPosition) -> Self {
+        Self { name: name.to_owned(), region, border: 0, position: cut }
+    }
+
+    /// Returns the parts that are simulated. An array has one part. A lone unit has as many parts,
+    /// evenly spread over the frames of the `whole` design, as are affordable for `frames` frames, and
+    /// `most` at most. Without that limit, each region has an RPU.
+    pub(super) fn all_of(
+        whole: &Design,
+        simulated: &Design,
+        level: CosimLevel,
+        frames: usize,
+        most: Option<u64>,
+    ) -> Vec<Self> {
+        match level {
+            _ if frames == 0 => Vec::new(),
+            CosimLevel::Rcm { .. } | CosimLevel::Full => {
+                vec![Self::new("frames", None, PartPosition::UpperLeft)]
+            }
+            CosimLevel::Rpu => {
+                let clocks = frames as u64 * simulated.timing().clocks_per_frame();
+                Self::unit_parts(whole, simulated, (MAX_CLOCKS / clocks.max(1), most))
+            }
+        }
+    }
+
+    /// Returns the parts that go through a lone unit, `affordable` and `most` at most.
+    fn unit_parts(
+        whole: &Design,
+        simulated: &Design,
+        (affordable, most): (u64, Option<u64>),
+    ) -> Vec<Self> {
+        let limited = most.map_or(affordable, |most| most.min(affordable));
+        let spread = |all: u32, count: u64| {
+            let count = count.clamp(1, all.into());
+            let nth = move |number| number * u64::from(all) / count;
+            (0..count).map(move |number| u32::try_from(nth(number)).expect("less than all"))
+        };
+        match whole.hardware() {
+            // A region takes one clock per pixel, and each region has an RPU of its own.
+            Hardware::Pipelined(_) => spread(whole.regions(), most.map_or(u64::MAX, |_| limited))
+                .map(|region| {
+                    let part = Self::new("frames", Some(region), PartPosition::Region(region));
+                    Self { border: region_border(whole, region), ..part }
+                })
+                .collect(),
+            Hardware::Serial(own) => {
+                let fold = whole.with_hardware(own).fold();
+                spread(whole.with_hardware(own).lanes(), limited)
+                    .map(|lane| {
+                        Self::new("frames", Some(lane * fold), PartPosition::Lane(lane * fold))
+                    })
+                    .collect()
+            }
+            Hardware::Raster(_) => {
+                let (width, height) = (simulated.width(), simulated.height());
+                let columns = whole.width().div_ceil(width);
+                spread(columns * whole.height().div_ceil(height), limited)
+                    .map(|tile| {
+                        let (left, top) = (tile % columns * width, tile / columns * height);
+                        let name = format!("frames from x {left}, y {top} on");
+                        Self::new(&name, None, PartPosition::Tile { left, top })
+                    })
+                    .collect()
+            }
+        }
+    }
+
+    /// Cuts the part out of a frame of the `whole` design.
+    pub(super) fn extract(
+        &self,
+        whole: &Design,
+        simulated: &Design,
+        frame: &Frame,
+    ) -> Result<Frame, CosimError> {
+        let (side, columns) = (whole.region_size(), whole.columns());
+        let size = (simulated.width(), simulated.height());
+        let part = |(width, height): (u32, u32), place: &dyn Fn(u32, u32) -> (u32, u32)| {
+            Frame::from_fn(width, height, whole.pixel_bits(), |x, y| {
+                let (x, y) = place(x, y);
+                frame.get_clamped(x.into(), y.into())
+            })
+        };
+        let part = match self.position {
+            PartPosition::UpperLeft => part(size, &|x, y| (x, y)),
+            PartPosition::Tile { left, top } => part(size, &|x, y| (left + x, top + y)),
+            PartPosition::Lane(first) => part(size, &|x, y| {
+                let region = (first + x / side).min(whole.regions() - 1);
+                (region % columns * side + x % side, region / columns * side + y)
+            }),
+            PartPosition::Region(region) => {
+                let (mut stream, side) = (Vec::new(), whole.stream_side());
+                region_stream(whole, frame, region, &mut stream);
+                Frame::new(side, side, whole.pixel_bits(), stream)
+            }
+        };
+        Ok(part?)
+    }
+}
+
+/// The pattern of pauses between pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum GapPattern {
+    /// A pixel comes at every clock, and frames follow at once.
+    None,
+    /// Pauses are random, and most frames follow at once.
+    Random,
+    /// Pixels come in bursts, with pauses of many clocks; frames are often far enough apart for a
+    /// flush.
+    Bursts,
+    /// One clock passes before the last of so many pixels.
+    Periodic(usize),
+}
+
+impl GapPattern {
+    /// The patterns that sequences take in turn.
+    pub(super) const IN_TURN: [Self; 3] = [Self::None, Self::Random, Self::Bursts];
+
+    /// Returns the number of clocks without a pixel before the one at this place of a frame.
+    pub(super) fn before_pixel(self, place: usize, random: &mut Random) -> u64 {
+        match self {
+            Self::None => 0,
+            Self::Random if random.one_in(3) => 1 + random.up_to(2),
+            Self::Bursts if random.one_in(40) => 1 + random.up_to(30),
+            Self::Random | Self::Bursts => 0,
+            Self::Periodic(period) => u64::from(place % period == period - 1),
+        }
+    }
+
+    /// Returns the number of clocks without a pixel between two frames; after `settle` clocks
+    /// everything has settled.
+    pub(super) fn between_frames(self, settle: u64, random: &mut Random) -> u64 {
+        match self {
+            Self::None | Self::Periodic(_) => 0,
+            Self::Random => match random.up_to(3) {
+                0 => 1,
+                1 => random.up_to(settle),
+                _ => 0,
+            },
+            Self::Bursts => match random.up_to(2) {
+                0 => 0,
+                1 => random.up_to(settle),
+                _ => settle,
+            },
+        }
+    }
 }

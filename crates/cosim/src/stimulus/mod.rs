@@ -13,27 +13,17 @@
 //! the frames that they choose and in the [`ClockReceiver`] that takes the clocks. The benches, and
 //! the traffic of a core on AXI ([`crate::bus`]), draw their frames with the same patterns.
 
-mod clock_receiver;
-mod decision_predictor;
-mod drain_timing;
-mod external_store;
-mod frame_delivery;
 mod frame_feed;
 mod frame_generator;
-mod frame_parts;
-mod gap_pattern;
 mod model_driver;
-mod pattern_drawing;
 mod pattern_scorer;
 mod port_thresholds;
 mod port_zones;
-mod random;
 mod sequence_end;
 mod sequences;
 mod session;
 mod sink;
 mod stimulus_pattern;
-mod threshold_aimer;
 mod threshold_ranges;
 mod unit_frames;
 mod unused_inputs;
@@ -41,27 +31,21 @@ mod unused_inputs;
 use crate::error::CosimError;
 use crate::level::CosimLevel;
 use crate::recording::{Recorder, Recording};
-pub(crate) use clock_receiver::ClockReceiver;
-pub(crate) use external_store::StoreFault;
 use foveate_design::Design;
 use foveate_pixels::Frame;
-pub(crate) use frame_delivery::FrameDelivery;
-pub(crate) use frame_feed::FrameFeed;
+pub(crate) use frame_feed::{FrameDelivery, FrameFeed, GapPattern};
 pub(crate) use frame_generator::{FrameGenerator, PatternAim};
-pub(crate) use gap_pattern::GapPattern;
-pub(crate) use model_driver::{FrameLimit, ModelDriver, SequenceSurroundings};
+pub(crate) use model_driver::{ClockReceiver, FrameLimit, ModelDriver, SequenceSurroundings};
 pub(crate) use pattern_scorer::PatternScores;
 pub(crate) use port_zones::ClassChoice;
-pub(crate) use random::Random;
 pub(crate) use sequence_end::SequenceEnd;
 use session::{SequenceLimits, StimulusPace, StimulusPlan, StimulusSession};
-pub(crate) use sink::SinkPattern;
+pub(crate) use sink::{SinkPattern, StoreFault};
 use std::sync::atomic::AtomicBool;
 pub(crate) use stimulus_pattern::{PatternGenerator, StimulusPattern, Texture};
-pub(crate) use threshold_aimer::{ThresholdAim, ThresholdAimer};
-pub(crate) use threshold_ranges::ThresholdRanges;
+pub(crate) use threshold_ranges::{ThresholdAim, ThresholdAimer, ThresholdRanges};
 pub use unit_frames::UnitFrames;
-pub(crate) use unused_inputs::UnusedInputs;
+pub(crate) use unused_inputs::{Random, UnusedInputs};
 
 /// The largest number of regions of an array. Each is an RPU of the model, with buffers of its own.
 const MAX_REGIONS: u64 = 1 << 16;

@@ -1,23 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The driver of the ports of a model: it offers frames clock by clock, simulates what surrounds
-//! the core, and hands every clock to a receiver.
+//! The driver of the ports of a model: it offers frames clock by clock, simulates what
+//! surrounds the core, and hands every clock to a receiver. The receiver of the clocks that a
+//! driver simulates. The time until all pixels of a frame have left.
 
-use super::clock_receiver::ClockReceiver;
-use super::drain_timing::DrainTiming;
-use super::external_store::{ExternalStore, StoreFault};
-use super::frame_delivery::FrameDelivery;
-use super::frame_feed::FrameFeed;
+use super::frame_feed::{FrameDelivery, FrameFeed, GapPattern};
 use super::frame_generator::PatternAim;
-use super::gap_pattern::GapPattern;
 use super::port_thresholds::PortThresholds;
 use super::port_zones::{ClassChoice, PortZones};
-use super::random::Random;
-use super::sink::{Sink, SinkPattern};
-use super::threshold_aimer::ThresholdAim;
-use super::unused_inputs::{IdlePixelPolicy, UnusedInputs};
+use super::sink::{ExternalStore, Sink, SinkPattern, StoreFault};
+use super::threshold_ranges::ThresholdAim;
+use super::unused_inputs::{IdlePixelPolicy, Random, UnusedInputs};
 use crate::codec::RecordCodec;
 use crate::error::CosimError;
-use foveate_design::{Design, PortRole};
+use crate::layout::RecordLayout;
+use crate::recording::Recorder;
+use foveate_design::{Design, Hardware, PipelinedDesign, PipelinedTiming, PortRole};
 use foveate_emit::Top;
 use foveate_model::{CoreInput, CycleModel, ThresholdInputs, rcm_model, region_border, rpu_model};
 use foveate_pixels::Frame;
@@ -424,4 +421,91 @@ impl<'a, Receiver: ClockReceiver> ModelDriver<'a, Receiver> {
             false => Ok(()),
         }
     }
+}
+
+/// A receiver of clocks: a recording on disk, the vectors of a bench, or a diagram.
+pub(crate) trait ClockReceiver {
+    fn inputs(&self) -> &RecordLayout;
+
+    fn outputs(&self) -> &RecordLayout;
+
+    /// Takes `clocks` clocks with the same inputs and outputs.
+    ///
+    /// # Errors
+    /// Fails if a file cannot be written.
+    fn add_clocks(&mut self, input: &[u8], output: &[u8], clocks: u64) -> Result<(), CosimError>;
+
+    /// Returns true if the module has an input or output of this role.
+    fn has_port(&self, role: PortRole) -> bool {
+        let mut fields = self.inputs().fields().iter().chain(self.outputs().fields());
+        fields.any(|field| field.port.role == role)
+    }
+}
+
+impl ClockReceiver for Recorder {
+    fn inputs(&self) -> &RecordLayout {
+        self.inputs()
+    }
+
+    fn outputs(&self) -> &RecordLayout {
+        self.outputs()
+    }
+
+    fn add_clocks(&mut self, input: &[u8], output: &[u8], clocks: u64) -> Result<(), CosimError> {
+        (0..clocks).try_for_each(|_| self.push(input, output))
+    }
+}
+
+/// The time that a core needs after a frame.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct DrainTiming {
+    /// The number of clocks after the last pixel of a frame until everything is decided that does
+    /// not wait for another frame. A core that is ready earlier may need more clocks.
+    pub(crate) settling_clocks: u64,
+    /// True if the core shows by its own outputs that everything has left.
+    shows_end: bool,
+    /// The number of frames that must follow before the pixels of a frame have left.
+    pub(crate) frames_behind: u32,
+    /// The largest number of clocks that are simulated after a sequence has left.
+    pub(super) trailing_clocks: u64,
+}
+
+impl DrainTiming {
+    /// Returns the number of clocks to wait until everything is decided, or `None` if the core
+    /// shows by its own outputs that everything has left.
+    pub(super) fn clocks_to_wait(&self) -> Option<u64> {
+        (!self.shows_end).then_some(self.settling_clocks)
+    }
+
+    pub(crate) fn for_design(design: &Design) -> Self {
+        match design.hardware() {
+            Hardware::Pipelined(own) => {
+                let design = design.with_hardware(own);
+                Self {
+                    settling_clocks: settling_clocks(design),
+                    shows_end: false,
+                    frames_behind: PipelinedTiming::from_design(design).forward_frames,
+                    trailing_clocks: 0,
+                }
+            }
+            Hardware::Serial(_) => {
+                Self { settling_clocks: 0, shows_end: true, frames_behind: 0, trailing_clocks: 5 }
+            }
+            Hardware::Raster(_) => {
+                let departure = design.timing().departure();
+                Self {
+                    settling_clocks: departure.decision_clocks.max(departure.forward_clocks),
+                    shows_end: true,
+                    frames_behind: 0,
+                    trailing_clocks: 8,
+                }
+            }
+        }
+    }
+}
+
+/// Returns the number of clocks after the last pixel of a frame after which a pipelined array has
+/// decided everything that does not wait for another frame.
+pub(super) fn settling_clocks(design: PipelinedDesign<'_>) -> u64 {
+    u64::from(PipelinedTiming::from_design(design).decision_latency) + 4
 }

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The thresholds at the ports of a core, clock by clock.
 
-use super::decision_predictor::DecisionPredictor;
-use super::frame_generator::PatternAim;
+use super::frame_generator::{DecisionPredictor, PatternAim};
 use super::port_zones::{ClassChoice, PortZones};
-use super::random::Random;
-use super::threshold_aimer::{ThresholdAim, ThresholdAimer};
+use super::threshold_ranges::{ThresholdAim, ThresholdAimer};
+use super::unused_inputs::Random;
 use foveate_design::{Design, ThresholdSource as Mode};
 use foveate_model::{CoreInput, CycleModel, ThresholdInputs, region_stream};
 use foveate_pixels::Frame;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The ends of sequences: the state in which the next reset finds the core.
 
-use super::clock_receiver::ClockReceiver;
-use super::gap_pattern::GapPattern;
-use super::model_driver::ModelDriver;
+use super::frame_feed::GapPattern;
+use super::model_driver::{ClockReceiver, ModelDriver};
 use crate::error::CosimError;
 use foveate_design::PortRole;
 use foveate_model::CycleModel;

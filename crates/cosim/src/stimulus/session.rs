@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The state of a recording: it draws the frames of each sequence and offers them to the core.
 
-use super::clock_receiver::ClockReceiver;
-use super::frame_feed::FrameFeed;
+use super::frame_feed::{FrameFeed, FramePart, GapPattern};
 use super::frame_generator::FrameGenerator;
-use super::frame_parts::FramePart;
-use super::gap_pattern::GapPattern;
-use super::model_driver::{FrameLimit, ModelDriver, SequenceSurroundings};
-use super::random::Random;
+use super::model_driver::{ClockReceiver, FrameLimit, ModelDriver, SequenceSurroundings};
 use super::sequence_end::SequenceEnd;
 use super::sequences::{FrameSequence, sequences};
 use super::sink::SinkPattern;
-use super::unused_inputs::UnusedInputs;
+use super::unused_inputs::{Random, UnusedInputs};
 use crate::error::CosimError;
 use crate::level::CosimLevel;
 use crate::recording::Recorder;

@@ -2,7 +2,7 @@
 //! The implementation of [`crate::organization`] for pipelined designs.
 
 use super::{PipelinedTiming, ports};
-use crate::rules::{ArrayStructure, ArrayUnit, OrganizationRules};
+use crate::organization::{ArrayStructure, ArrayUnit, OrganizationRules};
 use crate::{CoreInterface, Design, DesignTiming, Organization, PipelinedDesign};
 
 impl OrganizationRules for PipelinedDesign<'_> {

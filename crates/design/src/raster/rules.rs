@@ -3,7 +3,7 @@
 
 use super::hardware::min_columns;
 use super::{RasterTiming, ports::interface};
-use crate::rules::{ArrayStructure, ArrayUnit, OrganizationRules};
+use crate::organization::{ArrayStructure, ArrayUnit, OrganizationRules};
 use crate::{CoreInterface, Design, DesignTiming, FrameStoreKind, Organization, RasterDesign};
 use foveate_camera::ReferencePolicy;
 

@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The steps of the pass of a feature in a serial array, and the widths of the registers that it
-//! uses.
+//! The steps of the pass of a feature in a serial array, and the widths of the registers that
+//! it uses.
+//!
+//! The search of `flow` in a serial array: the weights with which sums over different numbers of
+//! pixels compare like their means.
+//!
+//! The weight of a displacement d is c(d) = a^2 / n(d). Here a is the least common multiple of the
+//! numbers N, N-1, .. N-R of columns that can have a partner, so every weight is an integer.
+//!
+//! The division of the sums of blocks by their numbers of pixels: the bits of a sum that leave
+//! a lane, and the arithmetic at the ports.
 
-use super::flow::FlowSearch;
-use crate::Design;
-use foveate_camera::{FeatureKind, SpatialFeature, bits_for};
+use crate::{Design, SerialDesign};
+use foveate_camera::{Displacement, FeatureKind, Reciprocal, SpatialFeature, bits_for};
 
 /// Returns the number of steps of the pass of a feature.
 pub(super) fn pass_steps(design: &Design, feature: &SpatialFeature) -> u64 {
@@ -159,5 +167,135 @@ pub(super) fn feature_register_widths(
                 scale: design.count_bits() + pixel - 1,
             }
         }
+    }
+}
+
+/// The numbers of the search of `flow` in a serial array.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FlowSearch {
+    /// The radius R.
+    pub radius: u32,
+    /// The factors a / (N - i) for i = 0..=R. A weight is the product of two of them.
+    pub factors: Vec<u64>,
+    /// Bits of a factor.
+    pub factor_bits: u32,
+    /// Bits of the largest product of a sum and its weight, a^2 * (2^P - 1).
+    pub product_bits: u32,
+    /// Number of all pairs of pixels of all displacements.
+    pub pairs: u64,
+    /// Number of displacements.
+    pub displacements: u64,
+}
+
+impl FlowSearch {
+    /// Returns the numbers of a search with the radius in regions with `side` pixels a side of
+    /// `pixel_bits` bits.
+    pub(super) fn new(radius: u32, side: u32, pixel_bits: u32) -> Self {
+        let widths = || (0..=radius).map(|missing| u64::from(side - missing));
+        let common = widths().fold(1, least_common_multiple);
+        let factors: Vec<_> = widths().map(|width| common / width).collect();
+        let all = Displacement::search_order(radius);
+        let largest = factors.iter().copied().max().expect("a search has a factor");
+        Self {
+            radius,
+            factor_bits: bits_for(largest),
+            factors,
+            product_bits: bits_for(common * common * ((1 << pixel_bits) - 1)),
+            pairs: all.iter().map(|displacement| displacement.pixel_pairs(side)).sum(),
+            displacements: (2 * u64::from(radius) + 1).pow(2),
+        }
+    }
+
+    /// Returns the bits of a coordinate of a displacement, in two's complement.
+    #[must_use]
+    pub fn coordinate_bits(&self) -> u32 {
+        Displacement::coordinate_bits(self.radius)
+    }
+}
+
+impl SerialDesign<'_> {
+    /// Returns the numbers of the search of `flow`, or `None` if the design does not have it.
+    #[must_use]
+    pub fn flow_search(&self) -> Option<FlowSearch> {
+        let radius = self.displacement_feature()?.radius()?;
+        Some(FlowSearch::new(radius, self.region_size(), self.pixel_bits()))
+    }
+}
+
+fn least_common_multiple(a: u64, b: u64) -> u64 {
+    let (mut divisor, mut rest) = (a, b);
+    while rest > 0 {
+        (divisor, rest) = (rest, divisor % rest);
+    }
+    a / divisor * b
+}
+
+/// The arithmetic that makes a mean of the sum of a block in the accumulator of a lane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BlockMeanDivision {
+    /// Bits of the sum of a block plus half of its number of pixels.
+    pub sum_bits: u32,
+    /// Number of low bits of the sum that stay in the lane.
+    pub dropped_bits: u32,
+    /// Number of the other bits of the sum, which pass the ports.
+    pub passing_bits: u32,
+    /// Constant factor of the bits that pass.
+    pub factor: u64,
+    /// Number of bits by which the product is shifted to the right.
+    pub shift: u32,
+}
+
+impl BlockMeanDivision {
+    /// Makes the arithmetic for a sum of `sum` bits. With `takes_all`, a lane also moves its whole
+    /// accumulator to the score for a feature. It then drops no bits, because that would need a
+    /// multiplexer.
+    fn from_reciprocal(sum: u32, reciprocal: Reciprocal, takes_all: bool) -> Self {
+        let is_shift = reciprocal.multiplier() == 1;
+        let dropped = if is_shift && !takes_all { reciprocal.shift() } else { 0 };
+        let (factor, shift) = (reciprocal.multiplier(), reciprocal.shift() - dropped);
+        Self { sum_bits: sum, dropped_bits: dropped, passing_bits: sum - dropped, factor, shift }
+    }
+}
+
+impl SerialDesign<'_> {
+    /// Returns the arithmetic of the means of blocks, or `None` if no means are sent.
+    #[must_use]
+    pub fn block_mean_division(&self) -> Option<BlockMeanDivision> {
+        let periphery = self.periphery()?;
+        let takes_all = self.features().iter().any(takes_accumulator);
+        Some(BlockMeanDivision::from_reciprocal(
+            periphery.sum_bits,
+            periphery.reciprocal,
+            takes_all,
+        ))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn weights_are_integers_that_make_sums_comparable() {
+        for side in 4..=64 {
+            for radius in 1..=3 {
+                let search = FlowSearch::new(radius, side, 16);
+                let weight = |Displacement { dx, dy }: Displacement| {
+                    let factor = |shift: i8| search.factors[usize::from(shift.unsigned_abs())];
+                    factor(dx) * factor(dy)
+                };
+                let order = Displacement::search_order(radius);
+                let product = |&d: &Displacement| weight(d) * d.pixel_pairs(side);
+                assert!(order.iter().all(|d| product(d) == product(&order[0])), "{side} {radius}");
+                let largest = product(&order[0]) * 65_535;
+                assert_eq!(search.product_bits, bits_for(largest), "{side} {radius}");
+                let row = u64::from(side * (2 * radius + 1) - radius * (radius + 1));
+                assert_eq!(search.pairs, row * row);
+            }
+        }
+        let eight = FlowSearch::new(3, 8, 8);
+        assert_eq!(eight.factors, [105, 120, 140, 168]);
+        assert_eq!((eight.product_bits, eight.displacements, eight.coordinate_bits()), (28, 49, 3));
+        assert_eq!(FlowSearch::new(1, 8, 8).coordinate_bits(), 2);
     }
 }

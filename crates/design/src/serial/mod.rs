@@ -4,22 +4,16 @@
 //! K regions share a lane, and L lanes work in step.
 
 mod feature;
-mod flow;
 mod folds;
 mod hardware;
-mod means;
 mod memory;
 mod ports;
-mod rules;
 mod timing;
-mod widths;
 
-pub use flow::FlowSearch;
+pub use feature::{BlockMeanDivision, FlowSearch};
 pub use hardware::SerialHardware;
-pub use means::BlockMeanDivision;
-pub use memory::{LaneMemory, MemoryChoice, SlotArea, SlotAreaKind};
+pub use memory::{LaneMemory, LaneWidths, MemoryChoice, SlotArea, SlotAreaKind};
 pub use timing::{SerialPhase, SerialTiming};
-pub use widths::LaneWidths;
 
 use crate::{Design, PixelFeed, SerialDesign};
 use foveate_camera::index_bits;

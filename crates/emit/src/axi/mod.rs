@@ -2,19 +2,17 @@
 //! Generates a core on AXI: the module `rcm_axi` around the array, and its registers.
 
 mod axi_top;
-mod ports;
 mod register_documents;
 mod register_module;
 mod registers;
-mod rpu_array;
 
+pub use axi_top::{ARRAY_REGISTERS, array_registers, array_scores, array_software, array_table};
 pub use registers::{FieldKind, Register, RegisterField, axi_registers};
-pub use rpu_array::{ARRAY_REGISTERS, array_registers, array_scores, array_software, array_table};
 
+use super::verilog_text::WrappedPort;
 use crate::leaf_files::leaf_files;
 use crate::top::AXI_TOP;
 use crate::verilog_text::{module_file, rendered_text};
-use crate::wrapped_port::WrappedPort;
 use crate::{Prefix, SourceFile, Top, banner, verilog as array};
 use foveate_design::{Design, Hardware, InterfaceKind, RasterDesign};
 
@@ -71,7 +69,7 @@ pub(crate) fn axi_ports(design: &Design) -> Option<Vec<WrappedPort>> {
         (InterfaceKind::Ports, _)
         | (InterfaceKind::Axi, Hardware::Pipelined(_) | Hardware::Serial(_)) => None,
         (InterfaceKind::Axi, Hardware::Raster(own)) => {
-            Some(ports::header_ports(&rendered_text(&axi_top::view(design.with_hardware(own)))))
+            Some(axi_top::header_ports(&rendered_text(&axi_top::view(design.with_hardware(own)))))
         }
     }
 }

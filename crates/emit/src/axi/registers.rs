@@ -2,7 +2,7 @@
 //! The registers of a core on AXI4-Lite: one table from which Verilog, C, Markdown and SystemRDL
 //! are made.
 
-use crate::thresholds::threshold_value;
+use crate::camera_flags::threshold_value;
 use foveate_camera::{IrrelevantRendering, Payload};
 use foveate_design::{CLASS_WORD_BITS, CoreInterface, Design, Port, RasterDesign};
 

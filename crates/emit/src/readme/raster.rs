@@ -4,8 +4,7 @@
 use super::{
     PortRow, StreamRow, ThresholdRow, port_rows, score_names, stream_rows, sync, threshold_row,
 };
-use crate::instance::instance;
-use crate::verilog_text::rendered_text;
+use crate::verilog_text::{instance, rendered_text};
 use crate::{Prefix, Top, banner};
 use askama::Template;
 use foveate_design::{

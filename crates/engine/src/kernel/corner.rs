@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The feature `corner`: FAST 5/8.
 
-use crate::block_levels::BlockLevels;
 use crate::kernel::{WindowRows, WindowSides, extended_block};
+use crate::periphery::BlockLevels;
 use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane, best_arc};
 
 /// Adds one to every lane whose pixel is a corner at its level.

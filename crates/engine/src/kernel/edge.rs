@@ -4,8 +4,8 @@
 //! `|Gx| + |Gy|` is the larger of `|Gx + Gy|` and `|Gx - Gy|`. Both are even, and half of each is a
 //! sum of three differences of pixels. It is compared with half the level, rounded down.
 
-use crate::block_levels::BlockLevels;
 use crate::kernel::{WindowRows, WindowSides, extended_block};
+use crate::periphery::BlockLevels;
 use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane};
 
 /// Adds one to every lane whose window is an edge. `halves` are half of the levels, rounded down.

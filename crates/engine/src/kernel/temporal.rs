@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The temporal score: the number of pixels that differ from their reference by more than their level.
 
-use crate::block_levels::BlockLevels;
+use crate::periphery::BlockLevels;
 use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane};
 
 /// Adds one to every lane that has changed, and replaces the reference by the current pixels.

@@ -1,10 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The timing of a cell: the inputs that each output depends on, and the pins at which paths start
-//! and end.
+//! The timing of a cell: the inputs that each output depends on, and the pins at which paths
+//! start and end.
+//!
+//! The delays of Xilinx cells in picoseconds, from the `specify` blocks of Yosys' cell models
+//! (`xilinx/cells_sim.v`). Where a `specify` block has a delay for each bit, the delay of the
+//! slowest bit is used for a whole group of bits.
+//!
+//! * The models are those of the 7 series. Yosys has none of UltraScale+, and uses these for it.
+//! * Setup times are left out, as those of ECP5 are 0.
+//!
+//! The pins of a cell that are connected to a net.
 
-use super::cell_delays;
 use super::path::PathWeight;
-use super::pin_connection::{PinConnection, pin_connections};
 use super::raw_netlist::{PathBit, PathCell};
 use crate::cells::CellKind;
 
@@ -32,8 +39,7 @@ impl CellTiming {
             }
             for output in &outputs {
                 if let Some(weight) = arc_weight(kind, cell, &input, output, &is_last_carry) {
-                    let time =
-                        PathWeight::with_wires(cell_delays::arc_delay(kind, cell, &input, output));
+                    let time = PathWeight::with_wires(arc_delay(kind, cell, &input, output));
                     timing.arcs.push((input.net, output.net, weight.plus(time)));
                 }
             }
@@ -42,7 +48,7 @@ impl CellTiming {
             }
         }
         if let Some(weight) = start_weight(kind, cell) {
-            let weight = weight.plus(cell_delays::start_weight(kind, cell));
+            let weight = weight.plus(delay_of_start(kind, cell));
             timing.starts.extend(outputs.iter().map(|output| (output.net, weight)));
         }
         timing
@@ -187,4 +193,99 @@ fn is_unregistered(cell: &PathCell, register: &str) -> bool {
 /// register.
 fn is_data(cell: &PathCell, port: &str) -> bool {
     matches!(port, "A" | "B" | "C" | "D") && is_unregistered(cell, port)
+}
+
+/// The delays from an input of a look-up table to its output, beginning with the last input, which
+/// is the fastest.
+const LUT_DELAYS: [u32; 6] = [127, 238, 407, 472, 631, 642];
+/// The delay from the clock to the output of a flip-flop.
+const FLIP_FLOP_START: u32 = 303;
+/// The delay from the clock to the output of a shift register.
+const SHIFT_START: u32 = 1472;
+/// The delay from the clock to the output of distributed RAM.
+const MEMORY_START: u32 = 1190;
+/// The delays from the clock to the output of block RAM, without and with its output register.
+const BLOCK_START: [u32; 2] = [2454, 882];
+
+pub(super) fn arc_delay(
+    kind: CellKind,
+    cell: &PathCell,
+    input: &PinConnection<'_>,
+    output: &PinConnection<'_>,
+) -> u32 {
+    match kind {
+        CellKind::Lut(inputs) => lut_delay(inputs.saturating_sub(1 + input_number(input))),
+        CellKind::Inverter => LUT_DELAYS[0],
+        CellKind::ShiftRegister16 => lut_delay(4_usize.saturating_sub(input_number(input))),
+        CellKind::Memory(_) => lut_delay(5_usize.saturating_sub(input_number(input))),
+        CellKind::Carry(_) => carry_delay(input, output),
+        CellKind::Free => match (cell.kind.as_str(), input.port) {
+            ("MUXF7", "S") => 296,
+            ("MUXF7", _) => 223,
+            ("MUXF8" | "MUXF9", "S") => 273,
+            ("MUXF8" | "MUXF9", _) => 104,
+            _ => 0,
+        },
+        CellKind::Dsp => match input.port {
+            "A" => 2823,
+            "B" => 2690,
+            "D" => 3717,
+            _ => 1325,
+        },
+        CellKind::FlipFlop | CellKind::BlockRam(_) | CellKind::UltraRam => 0,
+    }
+}
+
+/// Returns the initial weight of a path at the outputs of a cell.
+pub(super) fn delay_of_start(kind: CellKind, cell: &PathCell) -> PathWeight {
+    let registered = ["DOA_REG", "DOB_REG"].iter().any(|name| cell.number(name) == Some(1));
+    let clock_to_output = match kind {
+        CellKind::ShiftRegister16 => SHIFT_START,
+        CellKind::Memory(_) if cell.kind.starts_with("SRL") => SHIFT_START,
+        CellKind::Memory(_) => MEMORY_START,
+        // There is no model of UltraRAM, so that of block RAM is used.
+        CellKind::BlockRam(_) | CellKind::UltraRam => BLOCK_START[usize::from(registered)],
+        _ => FLIP_FLOP_START,
+    };
+    PathWeight::after_clock(clock_to_output, FLIP_FLOP_START)
+}
+
+fn lut_delay(behind_last: usize) -> u32 {
+    LUT_DELAYS[behind_last.min(LUT_DELAYS.len() - 1)]
+}
+
+/// Returns the number of an input among those of its kind: `I3`, `DPRA3` and bit 3 of `ADDRA` are
+/// 3.
+fn input_number(input: &PinConnection<'_>) -> usize {
+    let digits = input.port.trim_start_matches(|c: char| !c.is_ascii_digit());
+    digits.parse().unwrap_or(input.index)
+}
+
+fn carry_delay(input: &PinConnection<'_>, output: &PinConnection<'_>) -> u32 {
+    match (input.port, output.port, output.index) {
+        ("CI", "CO", 3 | 7) => 114,
+        ("CI", "CO", _) => 271,
+        ("CI", ..) => 334,
+        ("CYINIT", "CO", _) => 592,
+        ("CYINIT", ..) => 642,
+        (_, "CO", _) => 548,
+        _ => 618,
+    }
+}
+
+/// A net and the pin that it is connected to.
+pub(super) struct PinConnection<'a> {
+    pub(super) port: &'a str,
+    pub(super) index: usize,
+    pub(super) net: u32,
+}
+
+/// Returns every pin of a cell that is connected to a net, port by port.
+pub(super) fn pin_connections(cell: &PathCell) -> impl Iterator<Item = PinConnection<'_>> {
+    cell.connections.iter().flat_map(|(port, bits)| {
+        let joint = move |(index, bit): (usize, &PathBit)| {
+            Some(PinConnection { port, index, net: bit.net()? })
+        };
+        bits.iter().enumerate().filter_map(joint)
+    })
 }

@@ -3,9 +3,8 @@
 //! in picoseconds. The models give reads of distributed RAM a delay of 0. The delays that the
 //! models lack are those of nextpnr 0.11 for speed grade 6.
 
-use super::cell::CellTiming;
+use super::cell::{CellTiming, pin_connections};
 use super::path::PathWeight;
-use super::pin_connection::pin_connections;
 use super::raw_netlist::PathCell;
 
 /// The delays from inputs to outputs.

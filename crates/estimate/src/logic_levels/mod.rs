@@ -12,12 +12,10 @@
 //! `docs/clock.md` states the error.
 
 mod cell;
-mod cell_delays;
 mod ecp5;
 mod graph;
 mod path;
 mod path_search;
-mod pin_connection;
 mod raw_netlist;
 
 use crate::error::EstimateError;

@@ -14,20 +14,19 @@ use foveate_tools::{
     yosys::{self, YosysJob},
 };
 
-use super::critical_path::SourceNames;
 use super::device::{DeviceFamily, RouteDevice};
-use super::hierarchy::ModuleHierarchy;
-use super::netlist::PlacementNetlist;
+use super::netlist;
+use super::netlist::{ModuleHierarchy, PlacementNetlist};
 use super::nextpnr_report::NextpnrReport;
-use super::port_registers;
 use super::report::{
     ClockStatistics, DeviceResult, PlacementResult, ROUTE_FORMAT_VERSION, ResourceUse, RouteReport,
+    SourceNames,
 };
 use super::shortage::resource_shortages;
-use crate::clock::ClockEstimate;
 use crate::error::EstimateError;
+use crate::estimate_job::{sources, sources_of_files};
 use crate::logic_levels::CellLibrary;
-use crate::synthesis::{sources, sources_of_files};
+use crate::speed::ClockEstimate;
 use foveate_tools::ToolRecord;
 
 const NETLIST: &str = "netlist.json";
@@ -295,7 +294,7 @@ pub(super) fn placement_netlist(
     family: DeviceFamily,
 ) -> Result<(PlacementNetlist, Vec<u8>, u64), EstimateError> {
     let (mut netlist, creator) = PlacementNetlist::parse(json, top)?;
-    let port_ff = port_registers::replace_ports(&mut netlist, clock, family)?;
+    let port_ff = netlist::replace_ports(&mut netlist, clock, family)?;
     let json = netlist.to_json(top, creator)?;
     Ok((netlist, json, port_ff))
 }

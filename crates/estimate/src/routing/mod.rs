@@ -5,26 +5,21 @@
 //! Each device gets the synthesis of its family, and several seeds, because the result of one
 //! placement is random. Cores have more ports than a device has pins, and in use their ports
 //! connect to other logic, not to pins. So every port bit gets a flip-flop of its own, only the
-//! clock has a pin, and these flip-flops are not counted. See [`port_registers`].
+//! clock has a pin, and these flip-flops are not counted. See [`netlist`].
 
-mod critical_path;
 mod device;
-mod hierarchy;
 mod job;
 mod netlist;
 mod nextpnr_report;
-mod port_registers;
-mod render;
 mod report;
 mod shortage;
 #[cfg(test)]
 mod tests;
 
-pub use critical_path::{CriticalPath, PathEnd};
 pub use device::{ROUTE_DEVICES, RouteDevice};
 pub use job::{RouteJob, place_and_route};
-pub use render::{render_routes_markdown, render_routes_text};
 pub use report::{
-    ClockStatistics, DeviceResult, PlacementResult, ROUTE_FORMAT_VERSION, ResourceUse, RouteReport,
+    ClockStatistics, CriticalPath, DeviceResult, PathEnd, PlacementResult, ROUTE_FORMAT_VERSION,
+    ResourceUse, RouteReport, render_routes_markdown, render_routes_text,
 };
 pub use shortage::ResourceShortage;

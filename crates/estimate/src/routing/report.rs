@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The report on a placed and routed design on each device.
+//! The report on a placed and routed design on each device. Renders the placed design as text
+//! for a terminal and as Markdown. The longest path of a placement in the names of the source:
+//! modules, registers and ports.
 
-use serde::{Deserialize, Serialize};
-
-use super::critical_path::CriticalPath;
+use super::netlist::{ModuleHierarchy, NetlistCell, PlacementNetlist, replaced_port};
+use super::nextpnr_report::{CellPin, TimingPath};
 use super::shortage::ResourceShortage;
-use crate::clock::ClockEstimate;
+use crate::speed::ClockEstimate;
+use crate::table::{ReportTable, header, wrap};
+use foveate_output::number_text::grouped;
 use foveate_tools::ToolRecord;
+use serde::{Deserialize, Serialize};
 
 /// The version of the JSON report. It grows when a field changes its meaning or is removed.
 pub const ROUTE_FORMAT_VERSION: u32 = 2;
@@ -117,4 +121,178 @@ impl DeviceResult {
         let all = self.over.iter().map(each).collect::<Vec<_>>().join(", ");
         (!self.over.is_empty()).then(|| format!("it does not fit {}: {all}", self.device))
     }
+}
+
+const COLUMNS: [&str; 8] =
+    ["logic", "FF", "block RAM", "SPRAM", "DSP", "fmax MHz", "slowest", "fastest"];
+
+/// Returns the report as a table for a terminal of `width` columns, with a sentence on each device.
+#[must_use]
+pub fn render_routes_text(report: &RouteReport, width: usize) -> String {
+    let sentences = sentences(report).map(|sentence| wrap(&sentence, width));
+    table(report).stacked_text(width) + "\n" + &sentences.collect::<String>()
+}
+
+/// Returns the report as Markdown.
+#[must_use]
+pub fn render_routes_markdown(report: &RouteReport) -> String {
+    let sentences = sentences(report).map(|sentence| format!("* {sentence}\n"));
+    table(report).markdown() + "\n" + &sentences.collect::<String>()
+}
+
+fn table(report: &RouteReport) -> ReportTable {
+    ReportTable {
+        title: format!("{} placed and routed by nextpnr", report.top),
+        header: header("device", &COLUMNS),
+        rows: report.devices.iter().map(row).collect(),
+        note: Some(
+            "logic: LUT4 of ECP5 and Gowin, logic cells of iCE40. fmax: the clock of the median seed, the slowest and \
+             the fastest one. Flip-flops at the ports are left out."
+                .to_owned(),
+        ),
+    }
+}
+
+fn row(routed: &DeviceResult) -> Vec<String> {
+    let cells = match &routed.placed {
+        None => vec!["-".to_owned(); COLUMNS.len()],
+        Some(PlacementResult { logic, ff, block_ram, spram, dsp, fmax, .. }) => {
+            let used =
+                [logic, ff, block_ram, spram, dsp].map(|ResourceUse { used, .. }| grouped(*used));
+            let clocks = [fmax.median_mhz, fmax.min_mhz, fmax.max_mhz];
+            used.into_iter().chain(clocks.map(|mhz| format!("{mhz:.1}"))).collect()
+        }
+    };
+    std::iter::once(routed.device.clone()).chain(cells).collect()
+}
+
+fn sentences(report: &RouteReport) -> impl Iterator<Item = String> {
+    let misfits = report.shortage_sentences().into_iter().map(|misfit| misfit + ".");
+    report.devices.iter().filter_map(sentence).chain(misfits)
+}
+
+fn sentence(routed: &DeviceResult) -> Option<String> {
+    let placed = routed.placed.as_ref()?;
+    let DeviceResult { device, part, .. } = routed;
+    let seeds = placed.fmax.seeds_mhz.len();
+    let path = placed.critical.as_ref().map_or_else(String::new, critical);
+    let seeds = if seeds == 1 { "1 seed".to_owned() } else { format!("{seeds} seeds") };
+    let estimate = placed.estimate.as_ref().map_or_else(String::new, |estimate| {
+        format!(" Expected by the netlist alone: {:.1} MHz.", estimate.mhz)
+    });
+    Some(format!("{device} is {part}; {seeds}.{path}{estimate}"))
+}
+
+fn critical(path: &CriticalPath) -> String {
+    let end = |PathEnd { module, name }: &PathEnd| format!("{name} (module {module})");
+    let share = 100.0 * path.wire_ns / path.ns;
+    format!(
+        " Longest path: {:.1} ns, {share:.0}% of it on {} wires, from {} to {}.",
+        path.ns,
+        path.wires,
+        end(&path.from),
+        end(&path.to)
+    )
+}
+
+/// The longest path between two edges of the clock.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CriticalPath {
+    /// The start of the path.
+    pub from: PathEnd,
+    /// The end of the path.
+    pub to: PathEnd,
+    /// The delay of the path in nanoseconds.
+    pub ns: f64,
+    /// The delay of its wires in nanoseconds.
+    pub wire_ns: f64,
+    /// The number of its wires that have a delay.
+    pub wires: u64,
+}
+
+/// A register, memory or port at an end of a path.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PathEnd {
+    /// The module in which it is declared.
+    pub module: String,
+    /// The name below the top, preceded by the instances that contain it.
+    pub name: String,
+}
+
+/// The netlist as it was placed, and the hierarchy of modules before it was flattened. Both are
+/// needed to name cells and nets as the source does.
+pub(super) struct SourceNames<'a> {
+    pub(super) top: &'a str,
+    pub(super) netlist: &'a PlacementNetlist,
+    pub(super) hierarchy: &'a ModuleHierarchy,
+}
+
+impl SourceNames<'_> {
+    /// Returns the path in the names of the source.
+    pub(super) fn path(&self, path: &TimingPath) -> Option<CriticalPath> {
+        let first = path.steps.iter().find(|step| step.is_wire())?;
+        let last = path.steps.last()?;
+        let wires = || path.steps.iter().filter(|step| step.is_wire() && step.delay > 0.0);
+        let start = first.net.as_ref().and_then(|net| self.netlist.net(net));
+        let end = self.register(&last.to).or_else(|| {
+            let last = path.steps.iter().rev().find(|step| step.is_wire())?;
+            self.netlist.name(self.netlist.net(last.net.as_ref()?)?)
+        });
+        Some(CriticalPath {
+            from: self.end(start.and_then(|net| self.netlist.name(net)), &first.from),
+            to: self.end(end, &last.to),
+            ns: path.delay(),
+            wire_ns: wires().map(|step| step.delay).sum(),
+            wires: wires().count() as u64,
+        })
+    }
+
+    /// Returns a name with its module; the name of the cell if no net has a name in the source.
+    fn end(&self, name: Option<String>, pin: &CellPin) -> PathEnd {
+        let name = name.unwrap_or_else(|| format!("{} ({})", pin.cell, pin.port));
+        PathEnd { module: self.hierarchy.module_of(self.top, &name), name }
+    }
+
+    /// Returns the register, port or memory at a pin where a path ends. iCE40 packs a table and the
+    /// flip-flop behind it into one cell, which has the name of the table.
+    fn register(&self, pin: &CellPin) -> Option<String> {
+        if let Some(port) = replaced_port(&pin.cell) {
+            return Some(port.trim_end_matches("_DFFLC").to_owned());
+        }
+        let (name, cell) = self.cell(&pin.cell)?;
+        if let Some(out) = cell.net("Q") {
+            return self.netlist.name(out);
+        }
+        if let Some(table) = cell.net("O") {
+            let mut behind =
+                self.netlist.cells.iter().filter(|(_, cell)| cell.net("D") == Some(table));
+            let (name, register) = behind.next()?;
+            return match replaced_port(name) {
+                Some(port) => Some(port.to_owned()),
+                None => self.netlist.name(register.net("Q")?),
+            };
+        }
+        // The name of a memory ends before the suffix of Yosys.
+        Some(format!("{} ({} {})", memory_name(name), cell.kind, pin.port))
+    }
+
+    /// Returns the cell of the netlist that became a cell of the placement, which may have a
+    /// suffix.
+    fn cell<'a>(&'a self, name: &'a str) -> Option<(&'a str, &'a NetlistCell)> {
+        let shorter = [Some(name), name.rsplit_once('$').map(|(name, _)| name)];
+        let packed = ["_LC", "_DFFLC"].map(|suffix| name.strip_suffix(suffix));
+        shorter
+            .into_iter()
+            .chain(packed)
+            .flatten()
+            .find_map(|name| Some((name, self.netlist.cells.get(name)?)))
+    }
+}
+
+/// Returns the name of a memory without the suffixes of Yosys: `u_store.words_q` for
+/// `u_store.words_q.0.1` and `u_store.words_q_DP16KD`.
+fn memory_name(cell: &str) -> &str {
+    let numbered = cell.trim_end_matches(|c: char| c == '.' || c.is_ascii_digit());
+    let kinds = ["_DP16KD", "_TRELLIS", "_SB_", "_MULT"];
+    kinds.iter().find_map(|kind| numbered.split_once(kind)).map_or(numbered, |(name, _)| name)
 }

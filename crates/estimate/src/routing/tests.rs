@@ -4,13 +4,12 @@
 use serde_json::{Value, json};
 
 use super::device::DeviceFamily;
-use super::hierarchy::ModuleHierarchy;
 use super::job::placement_netlist;
-use super::netlist::PlacementNetlist;
+use super::netlist::{ModuleHierarchy, PlacementNetlist};
 use super::nextpnr_report::NextpnrReport;
 use super::report::ClockStatistics;
 use super::shortage::{ResourceShortage, resource_shortages};
-use super::{ROUTE_DEVICES, RouteDevice, port_registers};
+use super::{ROUTE_DEVICES, RouteDevice, netlist};
 use crate::error::EstimateError;
 
 fn netlist(ports: &Value, cells: &Value) -> PlacementNetlist {
@@ -82,7 +81,7 @@ fn registers_replace_all_ports_except_the_clock() {
     ] {
         let mut core = netlist(&all, &json!({}));
         assert_eq!(
-            port_registers::replace_ports(&mut core, "clk_i", family).unwrap(),
+            netlist::replace_ports(&mut core, "clk_i", family).unwrap(),
             4,
             "a constant needs none"
         );
@@ -99,7 +98,7 @@ fn registers_replace_all_ports_except_the_clock() {
     }
     // A core on AXI has another name for its clock.
     let mut core = netlist(&all, &json!({}));
-    let error = port_registers::replace_ports(&mut core, "aclk", DeviceFamily::Ecp5);
+    let error = netlist::replace_ports(&mut core, "aclk", DeviceFamily::Ecp5);
     assert!(error.unwrap_err().to_string().contains("`aclk`"));
     let (_, pins) = DeviceFamily::Gowin.pin_file("aclk").unwrap();
     assert!(pins.contains("\"aclk\""), "{pins}");

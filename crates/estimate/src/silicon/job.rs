@@ -5,16 +5,15 @@ use foveate_design::Design;
 use foveate_emit::{AXI_CLOCK, Top};
 use foveate_tools::{Cache, Toolchain, sources_sha256};
 
-use super::array_timing::{ARRAY_CLOCK, ArrayTiming, TimedArray, time_array};
 use super::cell_totals::CellTotals;
 use super::error::SiliconError;
 use super::leaves::list_leaves;
 use super::library::{CellRole, LibertyLibrary};
-use super::mapping::{MappedArray, map_array, map_leaves};
-use super::memory_plan::plan_memory;
+use super::mapping::{MappedArray, map_array, map_leaves, plan_memory};
 use super::report::{
     LibraryFigures, MemoryTotals, SILICON_FORMAT_VERSION, SiliconReport, UnitFigures,
 };
+use super::timing::{ARRAY_CLOCK, ArrayTiming, TimedArray, time_array};
 use crate::EstimateJob;
 use crate::speed::count_to_f64;
 

@@ -4,22 +4,17 @@
 //! Yosys maps the Verilog to the cells of a liberty file, and OpenSTA times the netlist. The files are
 //! the user's own: those of open processes, or of a foundry.
 
-mod array_timing;
 mod cell_model;
 mod cell_totals;
 mod error;
-mod flat_netlist;
 mod gate_netlist;
 mod job;
 mod leaves;
 mod liberty_text;
 mod library;
 mod logic_function;
-mod lookup_table;
 mod mapping;
-mod memory_plan;
 mod net_names;
-mod render;
 mod report;
 mod timing;
 mod unit_instances;
@@ -29,16 +24,14 @@ pub use cell_model::{
 };
 pub use cell_totals::CellTotals;
 pub use error::SiliconError;
-pub use flat_netlist::{FlatNetlist, HIGH_NET, LOW_NET, NetlistGate, map_unit};
-pub use gate_netlist::gate_netlist;
+pub use gate_netlist::{FlatNetlist, HIGH_NET, LOW_NET, NetlistGate, gate_netlist, map_unit};
 pub use job::{SiliconJob, check_libraries, map_to_silicon};
 pub use leaves::SiliconLeaf;
 pub use library::LibertyLibrary;
 pub use logic_function::LogicFunction;
-pub use lookup_table::LookupTable;
-pub use memory_plan::{MacroChoice, MemoryFigures};
-pub use render::{render_silicon_markdown, render_silicon_text};
+pub use mapping::{MacroChoice, MemoryFigures};
 pub use report::{
     LibraryFigures, MemoryTotals, NOT_INCLUDED, SILICON_FORMAT_VERSION, SiliconReport, UnitFigures,
+    render_silicon_markdown, render_silicon_text,
 };
-pub use timing::SiliconPath;
+pub use timing::{LookupTable, SiliconPath};

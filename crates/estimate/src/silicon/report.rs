@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The report on a design in the cells of a library.
-
-use foveate_tools::ToolRecord;
-use serde::{Deserialize, Serialize};
+//! The report on a design in the cells of a library. Renders the report as text for a terminal
+//! and as Markdown.
 
 use super::cell_totals::CellTotals;
 use super::leaves::SiliconLeaf;
-use super::memory_plan::MemoryFigures;
+use super::mapping::MemoryFigures;
 use super::timing::SiliconPath;
 use crate::speed::count_to_f64;
+use crate::table::{ReportTable, header, wrap};
+use foveate_output::number_text::{grouped, real_number};
+use foveate_tools::ToolRecord;
+use serde::{Deserialize, Serialize};
 
 /// The version of the JSON report. It grows when a field changes its meaning or is removed.
 pub const SILICON_FORMAT_VERSION: u32 = 1;
@@ -132,4 +134,171 @@ impl SiliconReport {
         let of_region = self.area_mm2() * 1e6 / count_to_f64(self.regions);
         of_region.sqrt() / f64::from(self.region_size)
     }
+}
+
+const COLUMNS: [&str; 6] = ["count", "cells", "FF", "um2", "FF %", "gates"];
+const MEMORY_COLUMNS: [&str; 5] = ["count", "words", "bits", "macros of one", "um2 of one"];
+
+/// Returns the report as tables for a terminal of `width` columns; 80 columns are enough.
+#[must_use]
+pub fn render_silicon_text(report: &SiliconReport, width: usize) -> String {
+    let mut text = area_table(report).text(width);
+    if let Some(table) = memory_table(report) {
+        text += &format!("\n{}", table.text(width));
+    }
+    text.push('\n');
+    text.extend(sentences(report).iter().map(|sentence| wrap(sentence, width)));
+    if !report.leaves.is_empty() {
+        text += &format!("\n{}", leaf_table(report).text(width));
+    }
+    text
+}
+
+/// Returns the report as Markdown.
+#[must_use]
+pub fn render_silicon_markdown(report: &SiliconReport) -> String {
+    let mut text = area_table(report).markdown();
+    if let Some(table) = memory_table(report) {
+        text += &format!("\n{}", table.markdown());
+    }
+    text.push('\n');
+    text.extend(sentences(report).iter().map(|sentence| format!("* {sentence}\n")));
+    if !report.leaves.is_empty() {
+        text += &format!("\n{}", leaf_table(report).markdown());
+    }
+    text
+}
+
+fn leaf_table(report: &SiliconReport) -> ReportTable {
+    let of = report.leaves.first().map_or("", |leaf| leaf.module.as_str());
+    let rows = report.leaves.iter().map(|leaf| {
+        let name = std::iter::once(leaf.module.as_str());
+        let name: Vec<_> = name.chain(leaf.parameters.iter().map(String::as_str)).collect();
+        area_row(report, &name.join(" "), leaf.instances, leaf.cells)
+    });
+    ReportTable {
+        title: format!("Modules of {of}, each mapped apart"),
+        header: header("module", &COLUMNS),
+        rows: rows.collect(),
+        note: Some(
+            "Figures are for one instance without the modules inside it. They do not add up to those above, where \
+             logic is optimized across modules."
+                .to_owned(),
+        ),
+    }
+}
+
+fn area_table(report: &SiliconReport) -> ReportTable {
+    let volts = report.library.voltage.map_or_else(String::new, |volts| format!(" at {volts} V"));
+    let unit = &report.unit;
+    let mut rows = vec![area_row(report, &unit.name, unit.count, unit.cells)];
+    if report.shared.cells > 0 {
+        rows.push(area_row(report, "shared logic", 1, report.shared));
+    }
+    rows.push(area_row(report, "array", 1, report.array));
+    ReportTable {
+        title: format!("Cells of {}{volts}", report.library.name),
+        header: header("module", &COLUMNS),
+        rows,
+        note: Some(format!(
+            "um2: the area of the cells. FF %: the part of it that is flip-flops. gates: the area in NANDs of two \
+             inputs, of {} um2 each.",
+            real_number(report.library.gate_area_um2, 2)
+        )),
+    }
+}
+
+fn area_row(report: &SiliconReport, name: &str, count: u64, cells: CellTotals) -> Vec<String> {
+    let share = 100.0 * cells.flip_flop_area_um2 / cells.area_um2.max(f64::MIN_POSITIVE);
+    vec![
+        name.to_owned(),
+        grouped(count),
+        grouped(cells.cells),
+        grouped(cells.flip_flops),
+        real_number(cells.area_um2, 0),
+        format!("{share:.0}"),
+        real_number(report.gates(cells.area_um2), 0),
+    ]
+}
+
+fn memory_table(report: &SiliconReport) -> Option<ReportTable> {
+    if report.memories.is_empty() {
+        return None;
+    }
+    let limit = grouped(report.memory_limit);
+    let without_macros = match report.memory.macros {
+        0 => "; no macro holds them, so their area is not in any figure",
+        _ => "",
+    };
+    Some(ReportTable {
+        title: format!("Memories of more than {limit} bits{without_macros}"),
+        header: header("memory", &MEMORY_COLUMNS),
+        rows: report.memories.iter().map(memory_row).collect(),
+        note: None,
+    })
+}
+
+fn memory_row(memory: &MemoryFigures) -> Vec<String> {
+    let (macros, area) = match &memory.macros {
+        None => ("-".to_owned(), "-".to_owned()),
+        Some(choice) => {
+            (format!("{} {}", choice.count, choice.name), real_number(choice.area_um2, 0))
+        }
+    };
+    let numbers = [memory.count, memory.words, memory.words * memory.width].map(grouped);
+    let [count, words, bits] = numbers;
+    vec![memory.name.clone(), count, words, bits, macros, area]
+}
+
+fn sentences(report: &SiliconReport) -> Vec<String> {
+    let path = &report.path;
+    let memory = &report.memory;
+    let mut all = vec![
+        format!(
+            "The array takes {} mm2{}. The circuit of each of its {} regions of {}x{} pixels fits under pixels of {} um.",
+            real_number(report.area_mm2(), 3),
+            if memory.macros > 0 {
+                format!(
+                    ", {} of it in {} macros",
+                    real_number(memory.macro_area_um2 / 1e6, 3),
+                    grouped(memory.macros)
+                )
+            } else {
+                String::new()
+            },
+            grouped(report.regions),
+            report.region_size,
+            report.region_size,
+            real_number(report.pixel_pitch_um(), 2),
+        ),
+        format!(
+            "Longest path: {} ns over {} cells, from {} to {}. So the highest clock is {} MHz, for {} frames/s.",
+            real_number(path.ns, 2),
+            path.cells,
+            path.from,
+            path.to,
+            real_number(path.mhz, 1),
+            real_number(report.frames_per_second, 1),
+        ),
+        format!("Leakage of the array: {} uW.", real_number(report.leakage_nw / 1000.0, 3)),
+    ];
+    if memory.bits_without_macro > 0 {
+        all.push(format!(
+            "{} bits of memory have no macro, so neither their area nor their leakage is counted, and paths end at \
+             their ports.",
+            grouped(memory.bits_without_macro)
+        ));
+    }
+    if !report.is_sized {
+        all.push("The library has no buffer, so gates were not sized for their loads.".to_owned());
+    }
+    all.push(NOT_INCLUDED.to_owned());
+    let tools = report.tools.iter().map(|tool| {
+        let version = tool.version.split(" (").next().unwrap_or(&tool.version);
+        let name =
+            if version.starts_with(&tool.name) { String::new() } else { format!("{} ", tool.name) };
+        format!("{name}{version} ({})", tool.flags)
+    });
+    all.push(format!("Tools: {}.", tools.collect::<Vec<_>>().join("; ")));
+    all
 }

@@ -11,7 +11,7 @@ use foveate_media::ClipHalves;
 use serde::Serialize;
 
 use super::FitRequest;
-use super::threshold_scaling::scale_thresholds;
+use super::threshold_search::scale_thresholds;
 use crate::ExploreError;
 use crate::footage::ExplorationFootage;
 

@@ -11,17 +11,16 @@ use foveate_design::HardwareConfig;
 use foveate_measure::FidelityFigures;
 use foveate_media::ClipHalves;
 
-use super::clip_part::ClipPart;
 use super::constraints::{ConstraintCheck, Constraints, PartFigures, all_met, total_excess};
 use super::decision_rates::{DecisionGroups, MIN_REGIONS};
 use super::possible_designs::can_be_built;
-use super::search_frames::SearchFrames;
+use super::search_frames::{ClipPart, SearchFrames};
 use super::threshold_search::{ThresholdChoice, ThresholdSearch};
 use crate::ExploreError;
 use crate::footage::ExplorationFootage;
 use crate::measure::CameraMeasurement;
-use crate::progress::measuring_progress;
 use crate::row::{count_to_f64, sum_tallies};
+use crate::store::measuring_progress;
 
 /// The sides of regions that are tried besides the task's.
 const SIDES: [u32; 3] = [4, 8, 16];

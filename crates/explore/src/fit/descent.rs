@@ -17,15 +17,15 @@ use foveate_camera::{
 };
 
 use super::FitRequest;
-use super::agreement_estimate::AgreementEstimate;
 use super::camera_search::CameraSearch;
-use super::clip_part::ClipPart;
 use super::constraints::ConstraintCheck;
 use super::cost_objective::CostObjective;
-use super::known_agreements::{KnownAgreements, known_or_measured};
-use super::network_agreement::NetworkAgreement;
+use super::network_agreement::{
+    AgreementEstimate, KnownAgreements, NetworkAgreement, known_or_measured,
+};
 use super::possible_designs::{can_be_built, least_rough_cost};
-use super::threshold_scaling::scale_thresholds_by;
+use super::search_frames::ClipPart;
+use super::threshold_search::scale_thresholds_by;
 use crate::ExploreError;
 
 /// The sides of regions that are tried besides the task's.

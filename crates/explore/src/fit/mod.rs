@@ -8,7 +8,7 @@
 //!    tries region sizes and features, and for the best of them all depths, windows, filters and
 //!    references ([`camera_search`]), each with the thresholds that are nearest to the limits
 //!    ([`threshold_search`]). Thresholds are chosen on the first two thirds of the first half. All
-//!    limits must hold there and on the rest of the first half ([`clip_part`]), with a margin for
+//!    limits must hold there and on the rest of the first half ([`search_frames`]), with a margin for
 //!    other frames ([`decision_rates`]).
 //!    With a network, the search is a descent from the task instead: the network must agree, behind
 //!    the camera, with its outputs for whole frames ([`descent`], [`network_agreement`]).
@@ -24,21 +24,16 @@
 //!    and measured on the second half ([`fit_result`]).
 
 mod activity_target;
-mod agreement_estimate;
 mod camera_search;
-mod clip_part;
 mod constraints;
 mod cost_objective;
 mod decision_rates;
 mod descent;
 mod fit_result;
-mod known_agreements;
 mod network_agreement;
-mod network_goal;
 mod possible_designs;
 mod reasons;
 mod rough_cost;
-mod sampling_error;
 mod search_frames;
 mod simplest_cameras;
 mod slower_designs;
@@ -46,13 +41,10 @@ mod synthesis;
 mod synthesized_design;
 #[cfg(test)]
 mod test_clip;
-mod threshold_run;
-mod threshold_scaling;
 mod threshold_search;
 
 pub(crate) use camera_search::exact_fraction_bits;
-pub(crate) use decision_rates::DecisionGroups;
-pub(crate) use sampling_error::group_margin;
+pub(crate) use decision_rates::{DecisionGroups, group_margin};
 
 use std::ops::Range;
 use std::path::PathBuf;
@@ -61,26 +53,24 @@ use foveate_cosim::ActivityClip;
 use foveate_design::{DesignConfig, HardwareConfig, LaneMemoryKind, OrganizationConfig};
 use foveate_media::{ClipHalves, InputOptions, RunHooks, RunMonitor};
 
+use super::store::reading_progress;
 use crate::cost::Synthesizer;
 use crate::footage::ExplorationFootage;
-use crate::progress::reading_progress;
 use crate::target_process::{EnergyClips, TargetProcess};
 use crate::{Disturbance, ExploreError};
 use activity_target::task_for_target;
 use camera_search::CameraSearch;
-use clip_part::ClipPart;
 use descent::Descent;
 use fit_result::FitFindings;
-use known_agreements::KnownAgreements;
-use network_agreement::NetworkAgreement;
+use network_agreement::{KnownAgreements, NetworkAgreement};
+use search_frames::ClipPart;
 use synthesis::synthesize_promising_designs;
 
 pub use activity_target::ActivityTarget;
-pub use agreement_estimate::AgreementEstimate;
 pub use constraints::{ConstraintCheck, Constraints};
 pub use cost_objective::CostObjective;
 pub use fit_result::{FitResult, FittedDesign};
-pub use network_goal::{FittedNetwork, NetworkGoal};
+pub use network_agreement::{AgreementEstimate, FittedNetwork, NetworkGoal};
 
 /// The request of a fit.
 #[derive(Clone, Debug)]

@@ -4,24 +4,30 @@
 //! The network first runs on some whole frames of every part of the clips, spread evenly. Later it
 //! runs on the same frames behind a camera. If a least agreement is wanted, this ends as soon as
 //! the camera could not reach it even if the outputs for all later frames were equal.
+//!
+//! The goal of a fit with a network, and the agreement that the chosen design reaches. The
+//! agreement of a network over some frames, and its bound for other frames. The agreements that
+//! a descent has measured, and the reasons that follow from them.
 
+use super::decision_rates::{frame_group, group_count, group_margin, share_of_others};
+use super::search_frames::{ClipPart, spread_evenly};
+use crate::ExploreError;
+use crate::footage::ExplorationFootage;
+use crate::row::count_to_f64;
+use crate::store::network_progress;
 use foveate_camera::{Camera, CameraConfig};
 use foveate_engine::Engine;
 use foveate_inference::{
-    ConfidenceIntervals, FrameOutcome, InferenceError, NOISE_LEVELS, NoiseComparison,
-    OutputAgreement, VisionNetwork, frame_format_of, has_class_map,
+    ConfidenceIntervals, DetectionCounts, FrameOutcome, InferenceError, NOISE_LEVELS,
+    NoiseAgreement, NoiseComparison, OutputAgreement, VisionNetwork, VisionOptions,
+    frame_format_of, has_class_map,
 };
 use foveate_media::{ClipHalves, FrameDepths, RunMonitor};
 use foveate_tools::open_file;
 use rayon::prelude::*;
-
-use super::agreement_estimate::AgreementEstimate;
-use super::clip_part::{ClipPart, spread_evenly};
-use super::network_goal::{FittedNetwork, NetworkGoal};
-use crate::ExploreError;
-use crate::footage::ExplorationFootage;
-use crate::progress::network_progress;
-use crate::row::count_to_f64;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::Path;
 
 /// A frame that the network sees, and its findings.
 struct WholeFrameSample {
@@ -193,15 +199,211 @@ impl<'a> NetworkAgreement<'a> {
     }
 }
 
+/// The goal of a fit with a network: the network must agree, behind the camera, with its outputs
+/// for whole frames.
+#[derive(Clone, Copy, Debug)]
+pub struct NetworkGoal<'a> {
+    /// The network's file.
+    pub path: &'a Path,
+    /// The options for reading the network and for showing it frames.
+    pub vision_options: &'a VisionOptions,
+    /// The least agreement, 0..=1, defined as by `foveate infer --whole-frames`.
+    pub min_agreement: f64,
+    /// The most frames of each part of all clips that the network sees: of the part that cameras
+    /// are searched by, of the part that confirms a camera, and of the second halves.
+    pub frames: u64,
+}
+
+/// The agreement of a network behind the chosen design with the network on whole frames.
+#[derive(Clone, Debug, Serialize)]
+pub struct FittedNetwork {
+    /// The network's file.
+    pub network: String,
+    /// The format of the detections, if they are read.
+    pub detector: Option<String>,
+    /// The least agreement that was wanted, 0..=1.
+    pub min_agreement: f64,
+    /// The agreement on the frames of the search: the first two thirds of the first half.
+    pub fitted: AgreementEstimate,
+    /// The agreement on the rest of the first half, which had no part in the search and confirmed
+    /// its result.
+    pub confirmed: AgreementEstimate,
+    /// The agreement on the second half, which influenced no choice.
+    pub held_out: AgreementEstimate,
+    /// The agreement with whole frames of the second half under noise, level by level.
+    pub noise: Vec<NoiseAgreement>,
+    /// The size of a whole frame in bytes.
+    pub bytes_per_whole_frame: f64,
+}
+
+/// The agreement of a network behind a camera with the network on whole frames.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct AgreementEstimate {
+    /// The number of frames that the network saw.
+    pub frames: u64,
+    /// The agreement, 0..=1.
+    pub share: f64,
+    /// The agreement that 19 of 20 sets of as many other frames would exceed, 0..=1, if groups of
+    /// frames were independent.
+    pub expected: f64,
+    /// True if the agreement is only an upper bound, because the network did not see the other
+    /// frames.
+    #[serde(skip)]
+    pub is_upper_bound: bool,
+    /// The detections, if they are read.
+    pub detections: Option<DetectionCounts>,
+    /// The intervals in which the agreement and the shares of detections lie for other frames of
+    /// this kind.
+    pub intervals: ConfidenceIntervals,
+}
+
+impl AgreementEstimate {
+    /// Returns the agreement over some frames. Without frames there is no agreement.
+    pub(super) fn from_frames(frames: &[OutputAgreement]) -> Self {
+        if frames.is_empty() {
+            return Self { is_upper_bound: false, ..Self::upper_bound(0.0, 0) };
+        }
+        let all: OutputAgreement = frames.iter().sum();
+        let share = all.share();
+        let by_groups = (share - shortfall(frames)).max(0.0);
+        let by_count = all
+            .agreement_count()
+            .map_or(1.0, |count| share_of_others(share, count_to_f64(count))[0]);
+        let expected = by_groups.min(by_count);
+        let (frames, detections) = (frames.len() as u64, all.detection_counts());
+        let intervals = ConfidenceIntervals::new(share, detections, all.agreement_count());
+        Self { frames, share, expected, is_upper_bound: false, detections, intervals }
+    }
+
+    /// Returns an upper bound: after `frames` frames no more than `share` can be reached.
+    pub(super) fn upper_bound(share: f64, frames: u64) -> Self {
+        let intervals = ConfidenceIntervals::default();
+        Self { frames, share, expected: share, is_upper_bound: true, detections: None, intervals }
+    }
+}
+
+/// Returns by how much the agreement over as many other frames may be lower, from the differences
+/// between groups of frames.
+fn shortfall(frames: &[OutputAgreement]) -> f64 {
+    let without = |left_out: usize| {
+        let in_rest = |at: usize| frame_group(at, frames.len()) != left_out;
+        let rest = frames.iter().enumerate().filter(|(at, _)| in_rest(*at));
+        rest.map(|(_, frame)| frame).sum::<OutputAgreement>().share()
+    };
+    group_margin(group_count(frames.len()), without)
+}
+
+/// The agreement of the network behind cameras, by their configurations.
+#[derive(Debug, Default)]
+pub(super) struct KnownAgreements {
+    /// The agreement on the frames of the search.
+    pub(super) searched: BTreeMap<String, AgreementEstimate>,
+    /// The agreement on later frames, for cameras that agreed enough before.
+    pub(super) confirmed: BTreeMap<String, AgreementEstimate>,
+}
+
+impl KnownAgreements {
+    /// Returns the number of cameras.
+    pub(super) fn count(&self) -> usize {
+        self.searched.len()
+    }
+
+    /// Returns the exact agreement of a camera, and its agreement on later frames if it is known.
+    pub(super) fn agreements_of(
+        &self,
+        config: &CameraConfig,
+    ) -> (AgreementEstimate, Option<AgreementEstimate>) {
+        let text = config.to_toml();
+        (self.searched[&text], self.confirmed.get(&text).copied())
+    }
+
+    /// Returns the reasons of the network for choosing this camera; `least` is the agreement that
+    /// was to be reached.
+    pub(super) fn reasons(&self, chosen: &CameraConfig, least: f64) -> Vec<String> {
+        self.not_confirmed(least).into_iter().chain(self.step_lines(chosen)).collect()
+    }
+
+    /// Returns a sentence with the number of cameras that later frames did not confirm.
+    fn not_confirmed(&self, least: f64) -> Option<String> {
+        let failed = |agreed: &&AgreementEstimate| agreed.is_upper_bound || agreed.expected < least;
+        let count = self.confirmed.values().filter(failed).count();
+        let all = self.confirmed.len();
+        (count > 0).then(|| {
+            format!(
+                "later frames did not confirm {count} of {all} cameras whose agreement was sufficient before"
+            )
+        })
+    }
+
+    /// Returns a line for each camera that differs from the chosen one in one setting, in the order
+    /// of the keys.
+    fn step_lines(&self, chosen: &CameraConfig) -> Vec<String> {
+        let own = settings_of_toml(&chosen.to_toml());
+        let step = |(text, agreed): (&String, &AgreementEstimate)| {
+            let other = settings_of_toml(text);
+            let mut changed = other.iter().filter(|setting| !own.contains(setting));
+            let lost = own.iter().filter(|setting| !other.contains(setting)).count();
+            let setting = changed.next().filter(|_| lost <= 1 && changed.next().is_none())?;
+            let bound = if agreed.is_upper_bound { "at most " } else { "" };
+            let share = 100.0 * agreed.share;
+            let expected = 100.0 * agreed.expected;
+            let elsewhere =
+                (!agreed.is_upper_bound).then(|| format!(", {expected:.1} % elsewhere"));
+            let elsewhere = elsewhere.unwrap_or_default();
+            Some(format!("{setting}: agreement {bound}{share:.1} %{elsewhere}"))
+        };
+        self.searched.iter().filter_map(step).collect()
+    }
+}
+
+/// Returns the settings of a configuration, each with the names of its tables.
+fn settings_of_toml(toml: &str) -> Vec<String> {
+    let table: toml::Table = toml.parse().expect("a configuration is written as TOML");
+    let mut found = Vec::new();
+    collect_settings("", &toml::Value::Table(table), &mut found);
+    found
+}
+
+fn collect_settings(name: &str, value: &toml::Value, found: &mut Vec<String>) {
+    match value {
+        toml::Value::Table(table) => {
+            for (key, value) in table {
+                let name = if name.is_empty() { key.clone() } else { format!("{name}.{key}") };
+                collect_settings(&name, value, found);
+            }
+        }
+        toml::Value::Array(entries) => {
+            entries.iter().for_each(|entry| collect_settings(name, entry, found));
+        }
+        value => found.push(format!("{name} = {value}")),
+    }
+}
+
+/// Returns the known agreement of a camera, or calls `ask`. Without `least`, a known upper bound is
+/// not enough.
+pub(super) fn known_or_measured(
+    known: &mut BTreeMap<String, AgreementEstimate>,
+    camera: &Camera,
+    least: Option<f64>,
+    ask: impl FnOnce() -> Result<AgreementEstimate, ExploreError>,
+) -> Result<AgreementEstimate, ExploreError> {
+    let key = camera.config().to_toml();
+    let enough = |agreed: &&AgreementEstimate| least.is_some() || !agreed.is_upper_bound;
+    if let Some(agreed) = known.get(&key).filter(enough) {
+        return Ok(*agreed);
+    }
+    let agreed = ask()?;
+    known.insert(key, agreed);
+    Ok(agreed)
+}
+
 #[cfg(test)]
 mod tests {
-    use std::path::{Path, PathBuf};
-
-    use foveate_inference::{Framing, PixelMapping, VisionOptions};
-    use foveate_media::{InputOptions, SilentHooks};
-
     use super::super::test_clip::{remove_frames, write_clip};
     use super::*;
+    use foveate_inference::{Framing, PixelMapping, VisionOptions};
+    use foveate_media::{InputOptions, SilentHooks};
+    use std::path::{Path, PathBuf};
 
     /// Two clips are measured after the first one has lost frames that the network saw in it. Once
     /// that clip has ended, the bounds are those of a network that never saw the lost frames.
@@ -242,5 +444,12 @@ mod tests {
             }
         }
         assert!(bounds_of_second_clip > 0, "no bound was decided in the second clip");
+    }
+
+    #[test]
+    fn no_frames_do_not_agree() {
+        let found = AgreementEstimate::from_frames(&[]);
+        assert_eq!((found.frames, found.share, found.expected), (0, 0.0, 0.0));
+        assert!(!found.is_upper_bound);
     }
 }

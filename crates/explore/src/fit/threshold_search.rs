@@ -6,20 +6,24 @@
 //! levels around it as long as that is better. For each set of levels the best minima follow from one
 //! run over the frames ([`ThresholdRun`]), unless scores depend on decisions; then minima are steps
 //! of the descent, too. A run ends early when no minima can meet the limit on flips any more.
-
-use std::collections::BTreeSet;
-
-use foveate_camera::{CameraConfig, Decimal};
-use foveate_measure::{DecisionLimits, ThresholdTable};
-use foveate_media::{FrameDepths, RunProgress};
-use rayon::prelude::*;
+//!
+//! The run of a camera over the searched frames, and its best minima. The scaling of
+//! thresholds, as if the contrast of the scene were scaled.
 
 use super::constraints::{ConstraintCheck, Constraints, all_met};
-use super::decision_rates::DecisionGroups;
+use super::decision_rates::{DecisionGroups, FRAME_GROUPS};
 use super::search_frames::{SearchFrame, SearchFrames};
-use super::threshold_run::{ThresholdRun, as_f64, three_digits};
 use crate::ExploreError;
 use crate::row::count_to_f64;
+use foveate_camera::{Camera, CameraConfig, Decimal};
+use foveate_engine::Engine;
+use foveate_measure::{
+    ChosenSteps, DecisionAreas, DecisionLimits, DecisionState, GridCells, MinimumSteps,
+    ThresholdTable,
+};
+use foveate_media::{FrameDepths, RunProgress};
+use rayon::prelude::*;
+use std::collections::BTreeSet;
 
 /// The number of runs over the frames at the same time.
 const RUNS_AT_ONCE: usize = 32;
@@ -261,4 +265,252 @@ fn levels_around(level: u32) -> Vec<u32> {
     found.sort_unstable();
     found.dedup();
     found
+}
+
+/// The ratio of a number of pixels and the next smaller one that is tried.
+const COUNT_RATIO: f64 = 1.15;
+/// The octaves below and above a minimum score in grey levels that are tried, and the steps of an
+/// octave.
+const OCTAVES: i32 = 3;
+const STEPS_OF_OCTAVE: i32 = 4;
+
+/// A camera and its decisions so far.
+pub(super) struct ThresholdRun {
+    pub(super) camera: Camera,
+    engine: Engine,
+    decisions: RunDecisions,
+    /// The share of the frames after which the run ended, because no minima can meet a limit.
+    pub(super) ended_at: Option<f64>,
+}
+
+enum RunDecisions {
+    /// Scores do not depend on decisions, so the decisions with all minima are known.
+    OfAllMinima(ThresholdTable, MinimumDecimals),
+    /// Only the decisions with the camera's minima are known, by groups of frames.
+    OfOwnMinima(GridCells, Vec<DecisionAreas>),
+}
+
+/// The minima of a table, as they are written in a configuration.
+struct MinimumDecimals {
+    counts: Vec<u32>,
+    scores: Vec<Vec<(u64, Decimal)>>,
+}
+
+impl ThresholdRun {
+    pub(super) fn new(ideal: &Camera, camera: &Camera) -> Self {
+        let decisions = match ThresholdTable::has_free_scores(camera.config()) {
+            true => {
+                let decimals = MinimumDecimals::around(camera);
+                let table = ThresholdTable::new(ideal, camera, decimals.steps(), FRAME_GROUPS);
+                RunDecisions::OfAllMinima(table, decimals)
+            }
+            false => RunDecisions::OfOwnMinima(
+                GridCells::new(ideal, camera),
+                vec![DecisionAreas::default(); FRAME_GROUPS],
+            ),
+        };
+        Self { engine: Engine::new(camera), camera: camera.clone(), decisions, ended_at: None }
+    }
+
+    /// Shows a frame to the camera.
+    pub(super) fn add_frame(
+        &mut self,
+        SearchFrame { ideal, order, group, .. }: &SearchFrame,
+        depths: &FrameDepths<'_>,
+    ) -> Result<(), ExploreError> {
+        let outcome = depths.show_to(&mut self.engine)?;
+        match &mut self.decisions {
+            RunDecisions::OfAllMinima(table, _) => {
+                table.add_frame(ideal, outcome, (*order, *group));
+            }
+            RunDecisions::OfOwnMinima(cells, groups) => {
+                cells.for_each(|ideal_region, region, pixels| {
+                    let (srs, trs) = (outcome.srs[region], outcome.trs[region]);
+                    let own = DecisionState::new(srs, trs, outcome.actions[region]);
+                    groups[*group].add_pair((ideal[ideal_region], own), pixels, *order);
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns the least area that flips with any minima.
+    pub(super) fn least_flips(&self) -> u64 {
+        match &self.decisions {
+            RunDecisions::OfAllMinima(table, _) => table.least_flips(),
+            RunDecisions::OfOwnMinima(_, groups) => groups.iter().map(|group| group.action).sum(),
+        }
+    }
+
+    /// Returns the cameras whose minima are nearest to some limits, at most `most`, with their
+    /// decisions by groups of frames, and the number of cameras that were compared.
+    pub(super) fn nearest(
+        &self,
+        limits: &DecisionLimits,
+        most: usize,
+    ) -> (Vec<(CameraConfig, DecisionGroups)>, usize) {
+        let config = self.camera.config();
+        match &self.decisions {
+            RunDecisions::OfAllMinima(table, decimals) => {
+                let start = decimals.steps_of(&self.camera);
+                let (found, compared) = table.nearest(start, limits, most);
+                let camera = |chosen: &ChosenSteps| {
+                    let decisions = DecisionGroups(table.decisions(chosen));
+                    (decimals.config(config, chosen), decisions)
+                };
+                (found.iter().map(|minima| camera(&minima.chosen)).collect(), compared)
+            }
+            RunDecisions::OfOwnMinima(_, groups) => {
+                (vec![(config.clone(), DecisionGroups(groups.clone()))], 1)
+            }
+        }
+    }
+}
+
+impl MinimumDecimals {
+    /// Returns the minima around those of a camera.
+    fn around(camera: &Camera) -> Self {
+        let n = camera.region_pixels();
+        let own = camera.temporal().min_count;
+        let mut counts = rising_counts(n);
+        counts.retain(|count| *count > 0 || own == 0);
+        counts.push(own);
+        counts.sort_unstable();
+        counts.dedup();
+        let entries = camera.config().spatial.iter().zip(camera.features());
+        let scores = entries.map(|(entry, feature)| {
+            let own = entry.min_score.expect("a camera has every key filled in");
+            let measure = feature.kind().score_unit();
+            let mut tried: Vec<Decimal> = match measure.is_count() {
+                true => {
+                    rising_counts(n).into_iter().map(|n| Decimal::from_whole(n.into())).collect()
+                }
+                false => {
+                    let reach = OCTAVES * STEPS_OF_OCTAVE;
+                    let octaves = |step: i32| {
+                        f64::from(step * measure.scaling_exponent().cast_signed())
+                            / f64::from(STEPS_OF_OCTAVE)
+                    };
+                    let at = |step| three_digits(as_f64(own) * octaves(step).exp2());
+                    (-reach..=reach).filter_map(at).collect()
+                }
+            };
+            tried.push(own);
+            let as_score = |decimal: Decimal| {
+                let score = u64::try_from(decimal.ceil_times(feature.unit())).ok()?;
+                (score <= feature.score_max()).then_some((score, decimal))
+            };
+            let mut steps: Vec<_> = tried.into_iter().filter_map(as_score).collect();
+            // The own minimum is kept where several are equal for the camera.
+            steps.sort_by_key(|&(score, decimal)| (score, decimal != own));
+            steps.dedup_by_key(|(score, _)| *score);
+            steps
+        });
+        Self { scores: scores.collect(), counts }
+    }
+
+    fn steps(&self) -> MinimumSteps {
+        let scores = |steps: &Vec<(u64, Decimal)>| steps.iter().map(|(score, _)| *score).collect();
+        MinimumSteps {
+            counts: self.counts.clone(),
+            scores: self.scores.iter().map(scores).collect(),
+        }
+    }
+
+    /// Returns the numbers of the steps of a camera's minima.
+    fn steps_of(&self, camera: &Camera) -> ChosenSteps {
+        let at_least = |found: Result<usize, usize>| found.unwrap_or_else(|next| next);
+        let count = at_least(self.counts.binary_search(&camera.temporal().min_count));
+        let scores = self.scores.iter().zip(camera.features());
+        let scores = scores.map(|(steps, feature)| {
+            at_least(steps.binary_search_by_key(&feature.min_score(), |(score, _)| *score))
+        });
+        std::iter::once(count).chain(scores).collect()
+    }
+
+    /// Returns the configuration with some of the minima.
+    fn config(&self, config: &CameraConfig, chosen: &ChosenSteps) -> CameraConfig {
+        let mut config = config.clone();
+        config.temporal.min_count = self.counts[chosen[0]];
+        for ((entry, steps), &step) in config.spatial.iter_mut().zip(&self.scores).zip(&chosen[1..])
+        {
+            entry.min_score = Some(steps[step].1);
+        }
+        config
+    }
+}
+
+/// Returns rising numbers of pixels from 0 to `n`.
+fn rising_counts(n: u32) -> Vec<u32> {
+    let next = |count: &u32| {
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "below 2^16")]
+        let next = (f64::from(*count) * COUNT_RATIO).round() as u32;
+        Some(next.max(count + 1)).filter(|next| *next <= n)
+    };
+    std::iter::successors(Some(0), next).collect()
+}
+
+pub(super) fn three_digits(value: f64) -> Option<Decimal> {
+    Decimal::from_f64(format!("{value:.2e}").parse().ok()?)
+}
+
+/// Returns the nearest floating-point number.
+pub(super) fn as_f64(decimal: Decimal) -> f64 {
+    decimal.to_string().parse().expect("a decimal is written as a number")
+}
+
+/// Multiplies every threshold of the task in grey levels by `2^octaves`.
+pub(super) fn scale_thresholds(task: &CameraConfig, octaves: f64) -> CameraConfig {
+    scale_thresholds_by(task, octaves, octaves)
+}
+
+/// Multiplies the thresholds of features by `2^spatial` and the temporal level by `2^temporal`.
+pub(super) fn scale_thresholds_by(
+    task: &CameraConfig,
+    spatial: f64,
+    temporal: f64,
+) -> CameraConfig {
+    let scale = |octaves: f64| move |level: u32| round_to_level(f64::from(level) * octaves.exp2());
+    let (level, changed) = (scale(spatial), scale(temporal));
+    let factor = spatial.exp2();
+    let mut config = task.clone();
+    let bits = task.frame.pixel_bits;
+    config.temporal.level = Some(changed(config.temporal.level_or_default(bits)));
+    for entry in &mut config.spatial {
+        *entry = entry.with_defaults(bits);
+        let measure = entry.feature.score_unit();
+        entry.level = entry.level.map(level);
+        if !measure.is_count() {
+            // Deviations scale with the contrast, and their squares with its square.
+            let factor = (0..measure.scaling_exponent()).map(|_| factor).product::<f64>();
+            let scale = |score: Decimal| {
+                let score: f64 = score.to_string().parse().expect("a decimal is a number");
+                Decimal::from_f64((score * factor * 1000.0).round() / 1000.0)
+            };
+            entry.min_score = entry.min_score.and_then(scale);
+        }
+    }
+    config
+}
+
+/// Returns the nearest whole number, within the range of a level.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped before")]
+fn round_to_level(value: f64) -> u32 {
+    value.round().clamp(0.0, f64::from(u32::MAX)) as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scaling_is_of_grey_levels_and_of_their_squares() {
+        let text = "[[spatial]]\nfeature = \"edge\"\n[[spatial]]\nfeature = \"mad\"\n[[spatial]]\nfeature = \"variance\"\n";
+        let twice = scale_thresholds(&CameraConfig::from_toml(text).unwrap(), 1.0);
+        assert_eq!((twice.temporal.level, twice.temporal.min_count), (Some(16), 5));
+        assert_eq!(twice.spatial[0].level, Some(200));
+        let scores: Vec<String> =
+            twice.spatial.iter().map(|entry| entry.min_score.unwrap().to_string()).collect();
+        assert_eq!(scores, ["5", "10", "200"]);
+    }
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A clip that is read once: every camera sees its frames, and they go to a file for the codecs.
+//! A clip that is read once: every camera sees its frames, and they go to a file for the
+//! codecs. Numbers of frames as ranges, for people.
 
-use std::fs::File;
-use std::io::{BufWriter, Write as _};
-use std::path::Path;
-
+use crate::link::error::scratch_error;
+use crate::link::sweep::{SweptDesign, swept_designs};
+use crate::link::{GreyFootage, LinkError, Quality, SentCounts};
 use foveate_camera::RegionAction;
 use foveate_design::{Design, DesignConfig};
 use foveate_engine::Engine;
@@ -12,10 +12,9 @@ use foveate_measure::FrameSimilarity;
 use foveate_media::{ClipPlayer, PlayedFrame, RunClips, RunMonitor, SourceKind};
 use foveate_pixels::FramePixels;
 use foveate_simulator::{PixelCamera, PixelEventOptions};
-
-use crate::link::error::scratch_error;
-use crate::link::sweep::{SweptDesign, swept_designs};
-use crate::link::{GreyFootage, LinkError, Quality, SentCounts};
+use std::fs::File;
+use std::io::{BufWriter, Write as _};
+use std::path::Path;
 
 pub(crate) struct ClipResults {
     pub(crate) inputs: Vec<String>,
@@ -128,4 +127,27 @@ pub(crate) fn read_clip(
         grey_footage: GreyFootage { clip, path, width, height, frames },
         design,
     })
+}
+
+/// Formats ascending numbers as ranges, such as `0-2 5`.
+pub(crate) fn frame_ranges(frames: &[u64]) -> String {
+    let follow = |one: &u64, next: &u64| one + 1 == *next;
+    let range = |run: &[u64]| match run {
+        [first, .., last] => format!("{first}-{last}"),
+        [only] => only.to_string(),
+        [] => String::new(),
+    };
+    frames.chunk_by(follow).map(range).collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_that_follow_each_other_are_a_range() {
+        assert_eq!(frame_ranges(&[]), "");
+        assert_eq!(frame_ranges(&[7]), "7");
+        assert_eq!(frame_ranges(&[0, 1, 2, 5, 8, 9]), "0-2 5 8-9");
+    }
 }

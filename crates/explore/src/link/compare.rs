@@ -1,25 +1,24 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The comparison: every clip goes through the cameras, and then through the codecs at equal
-//! quality.
-
-use std::path::{Path, PathBuf};
-
-use foveate_design::DesignConfig;
-use foveate_media::{InputOptions, RunClips, RunHooks, RunMonitor};
-use foveate_pixels::FramePixels;
-use foveate_tools::{FolderKind, ScratchFolder, StagedFolder, Tool, Toolchain};
+//! quality. The search for the coarsest quantizer that is good enough, by bisection: quality
+//! falls as the quantizer rises.
 
 use crate::link::clip::{ClipResults, SweptResult, read_clip};
 use crate::link::encoder::check_encoders;
 use crate::link::error::scratch_error;
 use crate::link::figures::bytes_per_second;
 use crate::link::report::{FORMAT_VERSION, QUANTIZER};
-use crate::link::search::coarsest_quantizer;
 use crate::link::{
     ArrayResults, ClipEncoder, ClipReport, Codec, CurvePoint, EncodedClip, EncoderPreset,
     FrameTaker, LinkError, LinkFigures, LinkReport, LinkUnit, Quality, SenderCameras, SenderReport,
     Timeline, files,
 };
+use foveate_design::DesignConfig;
+use foveate_media::{InputOptions, RunClips, RunHooks, RunMonitor};
+use foveate_pixels::FramePixels;
+use foveate_tools::{FolderKind, ScratchFolder, StagedFolder, Tool, Toolchain};
+use std::ops::RangeInclusive;
+use std::path::{Path, PathBuf};
 
 /// The request of a comparison.
 #[derive(Clone, Debug)]
@@ -247,4 +246,51 @@ pub const LINK_FOLDER: FolderKind =
 
 fn is_link(folder: &Path) -> bool {
     folder.join("link.json").is_file()
+}
+
+/// Returns the largest quantizer for which `is_good` returns `true`; `None` if even the first one
+/// is not good enough.
+///
+/// # Errors
+/// Fails if `is_good` fails.
+pub fn coarsest_quantizer<E>(
+    quantizers: RangeInclusive<u32>,
+    mut is_good: impl FnMut(u32) -> Result<bool, E>,
+) -> Result<Option<u32>, E> {
+    let (mut good, mut bad) = quantizers.into_inner();
+    if is_good(bad)? {
+        return Ok(Some(bad));
+    }
+    if !is_good(good)? {
+        return Ok(None);
+    }
+    while bad - good > 1 {
+        let middle = good + (bad - good) / 2;
+        if is_good(middle)? {
+            good = middle;
+        } else {
+            bad = middle;
+        }
+    }
+    Ok(Some(good))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_limit_is_found_in_few_steps() {
+        for limit in 0..=53 {
+            let mut asked = 0;
+            let found = coarsest_quantizer(1..=52, |quantizer| {
+                asked += 1;
+                Ok::<_, ()>(quantizer <= limit)
+            });
+            assert_eq!(found, Ok((limit > 0).then_some(limit.min(52))));
+            assert!(asked <= 8, "{asked} for {limit}");
+        }
+        assert_eq!(coarsest_quantizer(5..=5, |_| Ok::<_, ()>(true)), Ok(Some(5)));
+        assert_eq!(coarsest_quantizer(0..=9, |_| Err(7)), Err(7));
+    }
 }

@@ -4,8 +4,8 @@
 use foveate_output::tables::{NamedCells, Table, TableCell};
 use foveate_tools::StagedFolder;
 
-use crate::link::charts::charts;
-use crate::link::frame_ranges::frame_ranges;
+use super::clip::frame_ranges;
+use super::report::charts;
 use crate::link::{
     ClipReport, CurvePoint, LinkError, LinkReport, Quality, SenderReport, UnbufferedFigures,
 };

@@ -5,7 +5,7 @@ use std::fmt;
 
 use foveate_camera::Decimal;
 
-use crate::link::text::millions_text;
+use super::report::millions_text;
 
 /// The names of the units, with their values in bits per second.
 const UNITS: [(&str, u64); 4] =

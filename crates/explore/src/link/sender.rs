@@ -21,7 +21,7 @@ use foveate_design::{DepartureTiming, Design, Hardware, RasterTiming};
 use foveate_pixels::FramePixels;
 use foveate_simulator::PIXEL_EVENT_BYTES;
 
-use crate::link::core_clock::FrequencyClock;
+use super::raster_array::FrequencyClock;
 use crate::link::{ArrayResults, LinkError, LinkUnit, RasterArray, Timeline};
 
 /// The values that a region camera sends for one frame, and the events of a pixel camera.

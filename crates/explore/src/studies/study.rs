@@ -6,7 +6,6 @@ pub(crate) mod histogram;
 pub(crate) mod recall;
 pub(crate) mod redundancy;
 pub(crate) mod sensor;
-mod sensor_events;
 pub(crate) mod sweep;
 pub(crate) mod temporal;
 

@@ -14,7 +14,7 @@ mod variance;
 
 use foveate_camera::FeatureKind;
 
-use crate::grid::RegionGrid;
+use super::plane::RegionGrid;
 use crate::plane::PaddedPlane;
 use crate::rules::FeatureRule;
 use crate::view::FrameView;

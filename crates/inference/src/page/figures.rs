@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Figures in the format of the page, and the figures of its heading.
+//! Figures in the format of the page, and the figures of its heading. The charts as plots of
+//! the page: the same lines, with a mark for every point that shows its figures. Frames on the
+//! receiver's screen, with the detections in them and in whole frames.
 
-use crate::InferenceSummary;
-use foveate_output::{
-    number_text::{MISSING, grouped, percent, real_number},
-    page::HeadingFigure,
+use crate::charts::ChartWithIds;
+use crate::whole_frames::{KeptScreen, KeptScreens};
+use crate::{Detection, InferenceSummary};
+use askama::Template;
+use foveate_output::chart::ChartData;
+use foveate_output::number_text::{MISSING, grouped, percent, real_number};
+use foveate_output::page::{
+    HeadingFigure, PageError, PagePlot, PlotAxes, PlotAxis, PlotLine, PlotMark, coordinate_text,
+    group_look, line_path, nest_marks,
 };
+use std::collections::BTreeMap;
 
 /// Formats a share as a percentage.
 pub(super) fn share_text(value: f64) -> String {
@@ -110,6 +118,161 @@ pub(super) fn heading_facts(summary: &InferenceSummary) -> Vec<HeadingFigure> {
     facts.push(fact("Frames", frames, format!("{counted} counted")));
     facts.push(fact("Frame", format!("{}×{}", summary.width, summary.height), "pixels".to_owned()));
     facts
+}
+
+/// The number of points of a line above which its marks are smaller.
+const MAX_LARGE_MARKS: usize = 80;
+
+/// Converts a chart to a plot. `titles` has the figures of every id; `note` says which frames are
+/// left out.
+pub(super) fn plot(drawn: &ChartWithIds, titles: &BTreeMap<&str, &str>, note: &str) -> PagePlot {
+    let (lines, is_joined) = match &drawn.chart.shape {
+        ChartData::Lines(lines) => (lines, true),
+        ChartData::Points(points) => (points, false),
+        _ => return PagePlot::default(),
+    };
+    let xs = || lines.iter().flat_map(|line| line.points.iter().map(|&(x, _)| x));
+    let ys = || lines.iter().flat_map(|line| line.points.iter().map(|&(_, y)| y));
+    let is_frames = ["frames", "saved"].contains(&&drawn.chart.file_stem[..]);
+    let is_tuning = drawn.chart.file_stem == "tuning";
+    let field = if is_tuning {
+        PlotAxes {
+            x: PlotAxis::always_linear(xs().chain([0.0])),
+            y: PlotAxis::starting_at_zero(ys()),
+        }
+    } else if !is_joined {
+        PlotAxes {
+            x: PlotAxis::always_linear(xs().chain([0.0])),
+            y: PlotAxis::always_linear(ys().chain([0.0])),
+        }
+    } else {
+        PlotAxes { x: PlotAxis::always_linear(xs()), y: PlotAxis::always_linear(ys().chain([0.0])) }
+    };
+    // The axis of the tuning plot has no room for the words of the chart.
+    let y_title = if is_tuning { "error [% of variation]" } else { &drawn.chart.y_title };
+    let logarithmic = if field.y.is_logarithmic() { " (log)" } else { "" };
+    let mut plot = PagePlot {
+        id: drawn.chart.file_stem.clone(),
+        title: drawn.chart.title.clone(),
+        note: if is_frames { note.to_owned() } else { String::new() },
+        x_title: drawn.chart.x_title.clone(),
+        y_title: format!("{y_title}{logarithmic}"),
+        x_ticks: field.x_ticks(),
+        y_ticks: field.y_ticks(),
+        ..PagePlot::default()
+    };
+    if !is_tuning && is_joined {
+        // Numbers of layers and frames are whole.
+        plot.x_ticks.retain(|tick| !tick.label.contains('.'));
+    }
+    for (index, (line, ids)) in lines.iter().zip(&drawn.ids).enumerate() {
+        let (class, shape) = group_look(index);
+        let mut places = Vec::new();
+        for (&(x, y), id) in line.points.iter().zip(ids) {
+            let Some(place) = field.coordinates(x, y) else { continue };
+            places.push(place);
+            let figures = titles.get(id.as_str()).copied().unwrap_or_default();
+            plot.marks.push(PlotMark {
+                id: id.clone(),
+                x: coordinate_text(place.0),
+                y: coordinate_text(place.1),
+                class: class.clone(),
+                shape,
+                title: figures.to_owned(),
+                ..PlotMark::default()
+            });
+        }
+        // Every second line is dashed, so that a line below it shows through its gaps.
+        let class = if is_joined && index % 2 == 1 { class + " dashed" } else { class };
+        let path = if is_joined { line_path(&places) } else { String::new() };
+        plot.lines.push(PlotLine { path, class, shape, label: line.name.clone() });
+    }
+    let is_many = lines.iter().any(|line| line.points.len() > MAX_LARGE_MARKS);
+    nest_marks(&mut plot.marks, if is_many { 0.5 } else { 1.0 });
+    plot
+}
+
+struct DetectionBox {
+    /// The fate of the detection, as a CSS class and in words: `kept`, `lost` or `added`.
+    class: &'static str,
+    x: String,
+    y: String,
+    width: String,
+    height: String,
+    title: String,
+}
+
+/// A frame of the page.
+struct FramePicture {
+    title: String,
+    /// The receiver's screen as a PNG in base64.
+    png: String,
+    marks: Vec<DetectionBox>,
+}
+
+/// The frames of the page.
+#[derive(Template)]
+#[template(path = "shots.html")]
+pub(super) struct FramePictures {
+    width: u32,
+    height: u32,
+    /// The width of a line in pixels of the frame.
+    line: String,
+    pictures: Vec<FramePicture>,
+}
+
+/// Returns the frames that are kept, if there are any.
+pub(super) fn frame_pictures(shots: &KeptScreens) -> Result<Option<FramePictures>, PageError> {
+    if shots.screens().is_empty() {
+        return Ok(None);
+    }
+    let (width, height) = shots.size();
+    let picture = |shot: &KeptScreen| {
+        let failed = |error: image::ImageError| PageError {
+            page: shot.name.clone(),
+            problem: error.to_string(),
+        };
+        let png = shots.png_base64(shot).map_err(failed)?;
+        Ok(FramePicture { title: picture_title(shot), png, marks: detection_boxes(shot) })
+    };
+    let pictures = shots.screens().iter().map(picture).collect::<Result<_, PageError>>()?;
+    let line = format!("{:.1}", f64::from(width.max(height)) / 300.0);
+    Ok(Some(FramePictures { width, height, line, pictures }))
+}
+
+fn picture_title(shot: &KeptScreen) -> String {
+    let found = shot.detection_counts();
+    format!(
+        "{}, frame {} ({}): {} kept, {} lost, {} added",
+        shot.clip,
+        shot.number,
+        shot.name,
+        found.kept,
+        found.whole - found.kept,
+        found.added
+    )
+}
+
+/// Returns the boxes of a frame. Lost and added detections are drawn above those that are kept.
+fn detection_boxes(shot: &KeptScreen) -> Vec<DetectionBox> {
+    let whole = shot.pairs.whole.iter();
+    let kept = whole.clone().filter(|(_, both)| *both).map(|(one, _)| detection_box("kept", one));
+    let lost = whole.filter(|(_, both)| !both).map(|(one, _)| detection_box("lost", one));
+    let seen = shot.pairs.seen.iter();
+    let added = seen.filter(|(_, both)| !both).map(|(one, _)| detection_box("added", one));
+    kept.chain(lost).chain(added).collect()
+}
+
+fn detection_box(class: &'static str, one: &Detection) -> DetectionBox {
+    let text = |value: f64| format!("{value:.1}");
+    DetectionBox {
+        class,
+        x: text(one.rect.x0),
+        y: text(one.rect.y0),
+        width: text(one.rect.width()),
+        height: text(one.rect.height()),
+        title: format!("{class}: class {}, score {:.2}", one.class, one.score),
+    }
 }
 
 #[cfg(test)]

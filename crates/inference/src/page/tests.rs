@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 use super::*;
+use crate::computation::Macs;
 use crate::cost::{AcceleratorSummary, FrameCost};
-use crate::macs::Macs;
 use crate::summary::{
     ClipSummary, OutputCloseness, TuningSummary, TuningTrial, WholeComputationError,
 };

@@ -3,18 +3,13 @@
 //! and its findings there are compared with its findings on the receiver's screen.
 
 mod comparison;
-mod interval;
-mod kept_screens;
 mod noise;
-mod noise_comparison;
 mod precision;
 mod summary;
 
 pub(crate) use comparison::{
-    CountedDetections, DetectionRow, FrameAgreement, WholeFrameComparison,
+    CountedDetections, DetectionRow, FrameAgreement, KeptScreen, KeptScreens, WholeFrameComparison,
 };
-pub use interval::{ConfidenceIntervals, has_class_map, wilson_interval};
-pub(crate) use kept_screens::{KeptScreen, KeptScreens};
-pub use noise::GaussianNoise;
-pub use noise_comparison::{NOISE_LEVELS, NoiseAgreement, NoiseComparison};
+pub use noise::{GaussianNoise, NOISE_LEVELS, NoiseAgreement, NoiseComparison};
+pub use precision::{ConfidenceIntervals, has_class_map, wilson_interval};
 pub use summary::{GroundTruthFigures, WholeFrameAgreement};

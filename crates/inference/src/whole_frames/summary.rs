@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The loss of a network behind the camera, and what the camera sends for it.
 
-use super::interval::ConfidenceIntervals;
-use super::noise_comparison::NoiseAgreement;
+use super::noise::NoiseAgreement;
+use super::precision::ConfidenceIntervals;
 use crate::camera::SentCount;
 use foveate_camera::Camera;
 use foveate_network::vision::{self, ClassAgreement, DetectionAgreement};

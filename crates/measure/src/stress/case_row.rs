@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The rows of the table of cases.
+//! The rows of the table of cases. The depth of a run.
 
 use serde::Serialize;
 
@@ -55,6 +55,25 @@ impl CaseRow {
             worst: worst.into().to_string(),
             // A case without trials proves nothing.
             is_as_expected: wrong == 0 && tried > 0,
+        }
+    }
+}
+
+/// The depth of a run, which decides how long it takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RunDepth {
+    /// A run of seconds, as the tests do it.
+    Short,
+    /// A run of minutes, with all cases that the documentation promises.
+    Full,
+}
+
+impl RunDepth {
+    /// Returns one of two values, depending on the depth.
+    pub(crate) fn choose<T>(self, short: T, full: T) -> T {
+        match self {
+            Self::Short => short,
+            Self::Full => full,
         }
     }
 }

@@ -11,15 +11,12 @@
 
 mod case;
 mod case_row;
-mod depth;
 mod designs;
 mod model_comparison;
-mod test_frames;
 
 use rayon::prelude::*;
 
-pub use case_row::CaseRow;
-pub use depth::RunDepth;
+pub use case_row::{CaseRow, RunDepth};
 
 /// Runs every case in parallel. `done` is called with the number of finished cases and the number
 /// of all. The rows are in the order of the documentation. Cases that have not started when

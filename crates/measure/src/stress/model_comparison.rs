@@ -9,7 +9,7 @@ use foveate_model::{
 };
 use foveate_pixels::Frame;
 
-use crate::stress::test_frames::RandomNumbers;
+use super::designs::RandomNumbers;
 
 /// The number of values that differ, and the number that were compared.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

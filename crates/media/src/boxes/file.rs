@@ -15,8 +15,7 @@ use super::error::BoxError;
 use super::exclusions::BoxExclusions;
 use super::format::{BoxFormat, coco, csv_table, mot, yolo};
 use super::image_name::path_endings;
-use super::labelled_box::{ImageBoxes, LabelledBox};
-use super::view::BoxView;
+use super::view::{BoxView, ImageBoxes, LabelledBox};
 use crate::{CropRect, FrameOrigin, SourceFrame};
 use foveate_pixels::Rect;
 

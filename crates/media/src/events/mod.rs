@@ -14,12 +14,10 @@ mod encoder;
 mod error;
 mod event;
 mod evt;
-mod format;
 mod frame_size;
 mod reader;
 
 pub use encoder::EventEncoder;
 pub use error::EventFileError;
-pub use event::PixelEvent;
-pub use format::EventFormat;
+pub use event::{EventFormat, PixelEvent};
 pub use reader::{EventReader, is_event_file};

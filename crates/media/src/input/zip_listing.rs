@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The images in a ZIP archive, in natural order. An archive is read as the folder that it was made of, whether that folder
-//! is an entry of the archive or not.
-
-use std::collections::HashSet;
-use std::fs::File;
-use std::io::{BufReader, Read as _, Seek as _, SeekFrom};
-use std::path::{Component, Path, PathBuf};
-
-use zip::ZipArchive;
-use zip::result::ZipError;
+//! The images in a ZIP archive, in natural order. An archive is read as the folder that it was
+//! made of, whether that folder is an entry of the archive or not. The images of a ZIP archive
+//! as a feed.
 
 use super::content_kind::{ContentKind, content};
 use super::entry::is_hidden;
 use super::skip_reason::{SkipReason, SkippedInput};
 use crate::extension::{is_image_name, is_video_name, unread_image_type_by_name};
+use crate::limits::MAX_FILE_GIB;
 use crate::options::ImageRelation;
-use crate::{FootageError, natural_order};
+use crate::source::file_feeds::{ImageFile, ImageFiles};
+use crate::{FootageError, InputOptions, SourceKind, natural_order};
+use std::collections::HashSet;
+use std::fs::File;
+use std::io::{BufReader, Read, Seek as _, SeekFrom};
+use std::path::{Component, Path, PathBuf};
+use zip::ZipArchive;
+use zip::result::ZipError;
 
 pub(super) type OpenArchive = ZipArchive<BufReader<File>>;
 
@@ -228,6 +229,47 @@ fn listed_archive(path: &Path, images: ImageRelation) -> Option<(OpenArchive, Ve
     let archive = open_archive(path).ok()?;
     let listed = zip_images(path, &archive, images).ok()?;
     Some((archive, listed))
+}
+
+/// Opens the images of an archive.
+pub(super) fn open_zip(
+    path: &Path,
+    bits: u32,
+    options: &InputOptions,
+) -> Result<ImageFiles, FootageError> {
+    let mut archive = open_archive(path)?;
+    let images = zip_images(path, &archive, options.images)?;
+    let kind = match options.images {
+        ImageRelation::Set => SourceKind::Set,
+        ImageRelation::Clip | ImageRelation::CifarSheet => SourceKind::Clip,
+    };
+    let file =
+        |image: &ZipImage| ImageFile { path: path.join(&image.path), label: image.label.clone() };
+    let files = images.iter().map(file).collect();
+    let own_path = path.to_owned();
+    let bytes_of = move |number: usize, name: &Path| {
+        entry_bytes((&own_path, &mut archive), &images[number], name)
+    };
+    Ok(ImageFiles::new(files, Box::new(bytes_of), bits, options, kind))
+}
+
+/// Returns the bytes of an image. Their checksum is compared with that of the archive.
+fn entry_bytes(
+    (path, archive): (&Path, &mut OpenArchive),
+    image: &ZipImage,
+    name: &Path,
+) -> Result<Vec<u8>, FootageError> {
+    let limit = MAX_FILE_GIB << 30;
+    let shown = image.path.display().to_string();
+    let entry = archive.by_index(image.index);
+    let entry = entry.map_err(|error| zip_error(path, &shown, &error))?;
+    let mut bytes = Vec::new();
+    let read = entry.take(limit + 1).read_to_end(&mut bytes);
+    read.map_err(|error| zip_error(path, &shown, &error.into()))?;
+    if bytes.len() as u64 > limit {
+        return Err(FootageError::TooLarge { path: name.to_owned() });
+    }
+    Ok(bytes)
 }
 
 #[cfg(test)]

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The conversion of a decoded image: luma of a mosaic, then the orientation.
-
-use std::io::Cursor;
-use std::path::Path;
-
-use image::{DynamicImage, ImageBuffer, ImageDecoder as _, ImageFormat, ImageReader};
+//! The conversion of a decoded image: luma of a mosaic, then the orientation. The outline of an
+//! image in a file that may hold several.
 
 use super::{decoder_error, jpeg, luma_samples, supported_format};
 use crate::bayer::{BayerPattern, MIN_MOSAIC_SIDE, luma_of_mosaic};
 use crate::{FootageError, InputOptions, Orientation};
+use image::{DynamicImage, ImageBuffer, ImageDecoder as _, ImageFormat, ImageReader};
+use std::io::Cursor;
+use std::path::Path;
 
 /// The conversion of images that the options of an input ask for.
 #[derive(Clone, Copy, Debug, Default)]
@@ -90,4 +89,10 @@ fn grey_of_mosaic(
         ImageBuffer::from_raw(width, height, luma).map(DynamicImage::ImageLuma16)
     };
     Ok(grey.expect("a mosaic has as much luma as samples"))
+}
+
+/// The header of an image, and the bytes behind its end, if its end was found.
+pub(super) struct ImageOutline<'a> {
+    pub(super) header: &'a [u8],
+    pub(super) after: Option<&'a [u8]>,
 }

@@ -10,16 +10,13 @@
 mod bits;
 mod block;
 mod frame;
-mod huffman;
-mod outline;
 mod pixels;
 mod scan;
 
-use self::bits::marker_at;
+use self::bits::{HuffmanTable, marker_at};
 use self::frame::{CodingProcess, FrameComponent, FrameHeader};
-use self::huffman::HuffmanTable;
-pub(super) use self::outline::outline;
 pub(super) use self::pixels::{decode, orientation, width};
+pub(super) use self::scan::outline;
 use self::scan::{HuffmanTables, ScanHeader};
 use super::damage::PictureFault;
 

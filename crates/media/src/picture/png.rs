@@ -7,8 +7,8 @@ use std::io::{self, Read};
 
 use flate2::bufread::ZlibDecoder;
 
+use super::conversion::ImageOutline;
 use super::damage::PictureFault;
-use super::outline::ImageOutline;
 use crate::limits::{MAX_FILE_GIB, MAX_SIDE};
 
 const SIGNATURE: usize = 8;

@@ -3,7 +3,7 @@
 //! other directly. What cameras and phones put behind the end of a photo is no stream: previews and
 //! gain maps have another size, and photos of several views say so in their first picture.
 
-use super::outline::ImageOutline;
+use super::conversion::ImageOutline;
 use super::{jpeg, png};
 
 /// The kind of the images of a stream.

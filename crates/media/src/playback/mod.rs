@@ -8,25 +8,20 @@
 //! grow with the number of frames. This crate does not know what is done with the frames.
 
 mod clips;
-mod depths;
 mod error;
 mod halves;
-mod hooks;
 mod monitor;
 mod parallel;
-mod played_frame;
 mod player;
 mod progress;
-mod reader;
 pub mod testing;
 
 pub use clips::{ClipReading, CommonFormat, RunClips};
-pub use depths::FrameDepths;
 pub use error::{InputError, PlaybackError};
 pub use halves::ClipHalves;
-pub use hooks::{RunHooks, SilentHooks};
 pub use monitor::{MonitoredFrames, RunMonitor};
 pub use parallel::run_in_parallel;
-pub use played_frame::PlayedFrame;
-pub use player::ClipPlayer;
-pub use progress::{ProgressStage, ProgressUnit, RemainingTime, RunProgress, StageAmount};
+pub use player::{ClipPlayer, FrameDepths, PlayedFrame};
+pub use progress::{
+    ProgressStage, ProgressUnit, RemainingTime, RunHooks, RunProgress, SilentHooks, StageAmount,
+};

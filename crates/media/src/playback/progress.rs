@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The progress of a run: the stage of the run, the amount that is done, its rate, and the time
-//! that is left.
+//! that is left. The callbacks of a run: progress and cancellation.
 
+use foveate_tools::Interrupt;
 use std::borrow::Cow;
 use std::time::{Duration, Instant};
 
@@ -157,6 +158,33 @@ impl ProgressStage {
             Ok(left) if left <= LONGEST_REMAINING => RemainingTime::About(left),
             _ => RemainingTime::MoreThan(LONGEST_REMAINING),
         })
+    }
+}
+
+/// The callbacks of a run. Several threads call them.
+pub trait RunHooks: Sync {
+    /// Reports that another frame or step is done.
+    fn progress(&self, progress: &RunProgress<'_>);
+
+    /// Returns true if the run is to stop. Each run says which of its results are kept then.
+    fn is_cancelled(&self) -> bool;
+
+    /// Returns the request to stop in a form that also ends waits. Hooks without one cannot end a
+    /// wait.
+    fn interrupt(&self) -> Interrupt {
+        Interrupt::default()
+    }
+}
+
+/// Hooks that report nothing and never stop.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SilentHooks;
+
+impl RunHooks for SilentHooks {
+    fn progress(&self, _progress: &RunProgress<'_>) {}
+
+    fn is_cancelled(&self) -> bool {
+        false
     }
 }
 

@@ -22,7 +22,7 @@ use crate::feature::mean::region_mean;
 use crate::feature::region_hits;
 use crate::feature::segment::{SegmentCounts, sides_of_mean};
 use crate::feature::surface::displacement_sums;
-use crate::region_view::FrameRegion;
+use crate::region::FrameRegion;
 use crate::temporal::RegionReferences;
 use crate::{FunctionalOutcome, RegionMemory, region_pixels};
 

@@ -4,7 +4,7 @@
 
 use foveate_camera::Camera;
 
-use crate::region_view::{FrameRegion, RegionView};
+use crate::region::{FrameRegion, RegionView};
 use crate::window::{CENTER, PixelWindow};
 use foveate_pixels::Frame;
 

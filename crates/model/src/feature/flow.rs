@@ -5,7 +5,7 @@
 use foveate_camera::Displacement;
 
 use crate::conversions::index;
-use crate::region_view::RegionView;
+use crate::region::RegionView;
 
 /// The sum of the differences between a region and its displaced reference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

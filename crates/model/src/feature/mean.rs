@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The rounded fixed-point mean of a region, which `mad` and `segment` share.
 
-use crate::region_view::RegionView;
+use crate::region::RegionView;
 
 /// Returns the rounded mean `floor((2^f * sum + floor(n / 2)) / n)`, in units of `2^-f` grey
 /// levels.

@@ -13,8 +13,8 @@ pub mod variance;
 
 use foveate_camera::{Camera, FeatureKind, SpatialFeature};
 
+use super::region::{FrameRegion, RegionView};
 use crate::conversions::count_true;
-use crate::region_view::{FrameRegion, RegionView};
 use crate::window::PixelWindow;
 use foveate_pixels::Frame;
 

@@ -5,7 +5,7 @@
 use std::cmp::Ordering;
 
 use super::mean::region_mean;
-use crate::region_view::RegionView;
+use crate::region::RegionView;
 
 /// The numbers of pixels that lie more than a level above, and below, the mean.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

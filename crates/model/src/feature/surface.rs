@@ -4,7 +4,7 @@
 
 use serde::Serialize;
 
-use crate::region_view::RegionView;
+use crate::region::RegionView;
 use crate::window::{CENTER, PixelWindow};
 
 /// The differences between the center of a window and its neighbors at the displacements (1, 0),

@@ -15,26 +15,16 @@
 //! lane or none: all RPUs take their pixels at the same edges, so the model steps each stage in all
 //! lanes at once. A lane is one RPU.
 
-mod delay_line;
-mod filter;
 mod frame_store;
-mod isolated_window;
 mod pixel;
 mod ports;
 mod rcm;
-mod region_sums;
-mod relevance;
-mod rpu;
 mod rpu_array;
 mod rpu_parameters;
 mod scores;
-mod shared_window;
 mod tail;
-mod tail_summary;
-mod temporal_counters;
-mod window_center;
 mod window_stage;
 
 pub use ports::{RpuInput, RpuOutput};
 pub use rcm::PipelinedRcm;
-pub use rpu::PipelinedRpu;
+pub use rpu_array::PipelinedRpu;

@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! RPUs that are clocked together: their stages in sequence.
+//! RPUs that are clocked together: their stages in sequence. One RPU, which is an array with a
+//! single lane.
 
-use foveate_camera::{FeatureKind, RegionClass};
-use foveate_design::PipelinedDesign;
-
-use super::delay_line::DelayLine;
-use super::filter::FilterStage;
 use super::pixel::{StagePixel, TailStep};
-use super::ports::RpuOutput;
+use super::ports::{RpuInput, RpuOutput};
 use super::rpu_parameters::RpuParameters;
 use super::tail::RpuTail;
-use super::window_center::WindowCenters;
-use super::window_stage::WindowStage;
+use super::window_stage::{DelayLine, FilterStage, WindowCenters, WindowStage};
+use crate::ThresholdInputs;
 use crate::feature::is_hit;
 use crate::feature::surface::window_differences;
 use crate::thresholds::ClassThresholdInputs;
+use foveate_camera::{FeatureKind, RegionClass};
+use foveate_design::PipelinedDesign;
 
 /// The RPUs of an array, one per lane. A new one is in the state after a reset.
 #[derive(Clone, Debug)]
@@ -197,4 +195,32 @@ fn tail_steps(
         }
     }
     steps
+}
+
+/// The cycle-level model of one RPU. A new one is in the state after a reset.
+#[derive(Clone, Debug)]
+pub struct PipelinedRpu {
+    array: RpuArray,
+}
+
+impl PipelinedRpu {
+    /// Makes an RPU of the design.
+    #[must_use]
+    pub fn new(design: PipelinedDesign<'_>) -> Self {
+        Self { array: RpuArray::new(design, 1) }
+    }
+
+    /// Applies one rising edge, and returns every output after it, with these inputs still applied.
+    /// In a design with zones the class of the region is [`foveate_camera::RegionClass::Normal`].
+    pub fn step(&mut self, input: &RpuInput, thresholds: &ThresholdInputs) -> RpuOutput {
+        let &RpuInput { reset, valid, pixel, border } = input;
+        let thresholds = ClassThresholdInputs::new(thresholds, None);
+        if reset {
+            self.array.reset(thresholds);
+        } else {
+            let pixels = [pixel];
+            self.array.step(valid.then_some(&pixels), (&[border], None), thresholds);
+        }
+        self.array.outputs()[0]
+    }
 }

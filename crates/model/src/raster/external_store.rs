@@ -8,9 +8,8 @@ use foveate_design::{RasterDesign, RasterTiming};
 use foveate_pixels::Frame;
 
 use super::advances::WordPosition;
-use super::decisions::CompletedRegion;
-use super::due_queue::{DueQueue, take_due};
-use super::word_pixels::WordPixels;
+use super::decisions::{CompletedRegion, DueQueue, take_due};
+use super::readout::WordPixels;
 use crate::denoising::denoised_pixels;
 use crate::region::black_padded_frame;
 

@@ -28,16 +28,10 @@
 
 mod advances;
 mod decisions;
-mod due_queue;
 mod external_store;
-mod forward_word;
-mod incoming_frame;
 mod ports;
 mod rcm;
 mod readout;
-mod regions;
-mod staleness;
-mod word_pixels;
 
 pub use ports::RasterOutput;
 pub use rcm::RasterRcm;

@@ -6,8 +6,7 @@ use foveate_design::{FRAME_NUMBERS, PortRole};
 
 use super::decisions::DecidedRasterRegion;
 use super::external_store::StoreWord;
-use super::forward_word::ForwardWord;
-use super::readout::LostRegion;
+use super::readout::{ForwardWord, LostRegion};
 
 /// The outputs of the core after an edge. A port whose value has no meaning, or that the core does
 /// not have, is 0.

@@ -22,9 +22,7 @@
 //! which the outputs do not change.
 
 mod intake;
-mod lane_streams;
 mod ports;
-mod raster_feed;
 mod rcm;
 mod regions;
 mod schedule;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The description of an accelerator, which is read from a TOML file.
+//! The description of an accelerator, which is read from a TOML file. Named accelerators, whose
+//! files state the source of every figure.
 
-use crate::accelerator::{AcceleratorError, AcceleratorPreset};
+use crate::accelerator::AcceleratorError;
 use serde::Deserialize;
 
 /// An accelerator: an array of multipliers, its buffers, and the energy of an access.
@@ -269,4 +270,49 @@ fn check_positive(key: &'static str, value: f64) -> Result<(), AcceleratorError>
         return Ok(());
     }
     Err(AcceleratorError::OutOfRange { key, value: value.to_string(), valid: "1e-6 to 1e9" })
+}
+
+/// A named accelerator.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AcceleratorPreset {
+    /// The name on the command line.
+    pub name: &'static str,
+    /// A description in one line.
+    pub summary: &'static str,
+    /// The text of its file, which a user can start from.
+    pub toml: &'static str,
+}
+
+/// All presets.
+pub const PRESETS: &[AcceleratorPreset] = &[
+    AcceleratorPreset {
+        name: "systolic-ws",
+        summary: "16 x 16 weight-stationary systolic array, 8 bits",
+        toml: include_str!("../../presets/systolic-ws.toml"),
+    },
+    AcceleratorPreset {
+        name: "systolic-os",
+        summary: "16 x 16 output-stationary systolic array, 8 bits",
+        toml: include_str!("../../presets/systolic-os.toml"),
+    },
+    AcceleratorPreset {
+        name: "eyeriss",
+        summary: "12 x 14 row-stationary array like Eyeriss, 16 bits",
+        toml: include_str!("../../presets/eyeriss.toml"),
+    },
+];
+
+impl AcceleratorPreset {
+    /// Returns the preset of that name.
+    ///
+    /// # Errors
+    /// Fails if there is no such preset; the message lists the existing ones.
+    pub fn find(name: &str) -> Result<&'static Self, AcceleratorError> {
+        PRESETS.iter().find(|preset| preset.name == name).ok_or_else(|| {
+            AcceleratorError::UnknownPreset {
+                name: name.to_owned(),
+                known: PRESETS.iter().map(|preset| preset.name).collect::<Vec<_>>().join(", "),
+            }
+        })
+    }
 }

@@ -50,15 +50,14 @@ mod cost;
 mod error;
 mod layer;
 mod plan;
-mod preset;
 mod row_stationary;
 mod systolic_array;
 
 pub use configuration::{
-    Accelerator, AccessEnergies, Dataflow, MappingObjective, RowStationaryArray, SystolicArray,
+    Accelerator, AcceleratorPreset, AccessEnergies, Dataflow, MappingObjective, PRESETS,
+    RowStationaryArray, SystolicArray,
 };
 pub use cost::{EnergyCost, LayerCost, MemoryAccesses};
 pub use error::AcceleratorError;
 pub use layer::{KernelWindow, Layer, TensorShape};
 pub use plan::LayerPlan;
-pub use preset::{AcceleratorPreset, PRESETS};

@@ -9,8 +9,7 @@
 use super::blocking::BlockSizes;
 use super::chunks::{CHUNK_POSITIONS, PositionChunk};
 use super::gathered_inputs::{ConvInput, GatheredInputs};
-use super::panels::{ConvOutputs, add_block};
-use super::weights::PackedWeights;
+use super::panels::{ConvOutputs, PackedWeights, add_block};
 use crate::values::{ByteNumber, TensorNumber};
 use foveate_pixels::lanes::{InstructionSet, PanelTask, VectorTask};
 use std::ops::Range;

@@ -12,7 +12,6 @@ mod micro_kernel;
 mod output_areas;
 mod panels;
 mod thread_parts;
-mod weights;
 
 pub(crate) use blocking::BlockSizes;
 pub(crate) use byte_convolution::{
@@ -22,6 +21,5 @@ pub(crate) use chunks::{CHUNK_POSITIONS, PositionChunk, chunks_of_flat_mask, chu
 pub(crate) use depthwise::{AreaBuffers, AreaLayout, DepthwiseChannel};
 pub(crate) use gathered_inputs::ConvInput;
 pub(crate) use output_areas::areas_of_chunks;
-pub(crate) use panels::{ConvOutputs, convolve, scheduled_positions};
+pub(crate) use panels::{ConvOutputs, PackedWeights, convolve, scheduled_positions};
 pub(crate) use thread_parts::thread_parts;
-pub(crate) use weights::PackedWeights;

@@ -86,7 +86,7 @@ mod tests {
     use super::*;
     use crate::kernel::{BlockSizes, chunks::chunks_of_mask};
     use crate::mask::Mask;
-    use crate::tensor_form::TensorForm;
+    use crate::tensor::TensorForm;
     use foveate_pixels::lanes::InstructionSet;
 
     /// Each chunk is in exactly one part, whose planes hold its positions. Each part adds 1 at the

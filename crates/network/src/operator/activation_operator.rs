@@ -3,7 +3,7 @@
 
 use super::{Operator, OperatorJob, only_input};
 use crate::activation::Activation;
-use crate::tensor_form::TensorForm;
+use crate::tensor::TensorForm;
 use foveate_pixels::lanes::{InstructionSet, VectorTask};
 
 /// The number of values that are copied to the output before the function is applied to them, so

@@ -4,8 +4,7 @@
 use super::{Operator, OperatorJob, moved_encoding, only_input, wrong_element_message};
 use crate::element::{Encoding, with_element_type};
 use crate::mask::Mask;
-use crate::tensor::Tensor;
-use crate::tensor_form::TensorForm;
+use crate::tensor::{Tensor, TensorForm};
 use crate::values::TensorNumber;
 
 /// The elements that are taken from an axis.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Convolution of 8-bit values. Its sums are exact, and are either kept or requantized to 8 bits.
 
-use super::requantization::{Requantization, SumOutput};
+use super::quantization::{Requantization, SumOutput};
 use super::{ConvGeometry, Operator, OperatorJob, ProductKind, encoding_from_bytes, output_values};
 use crate::element::{ElementType, Encoding, with_byte_type};
 use crate::kernel::{
@@ -9,7 +9,7 @@ use crate::kernel::{
     MAX_EXACT_PRODUCTS, PackedByteWeights, PositionChunk, chunks_of_mask,
 };
 use crate::mask::Mask;
-use crate::tensor_form::TensorForm;
+use crate::tensor::TensorForm;
 use crate::threads;
 use crate::values::ByteNumber;
 use foveate_pixels::lanes::InstructionSet;

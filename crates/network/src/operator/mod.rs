@@ -3,27 +3,17 @@
 //! spread of changes through them.
 
 mod activation_operator;
-mod alignment;
 mod axis_gather;
 mod binary_operator;
-mod byte_table;
-mod channel_scale;
 mod concat;
-mod constant_tensor;
 mod conv;
-mod conv_geometry;
-mod depth_to_space;
 mod integer_conv;
-mod integer_matmul;
-mod linear;
 mod matrix_product;
 mod normalization;
 mod pool;
 mod quantization;
 mod quantized_operators;
-mod reduced_axes;
 mod reduction;
-mod requantization;
 mod reshape;
 mod resize;
 mod selection;
@@ -34,38 +24,31 @@ mod transposed_conv;
 pub(crate) use activation_operator::ActivationOperator;
 pub(crate) use axis_gather::{AxisGather, AxisSelection};
 pub(crate) use binary_operator::{ArithmeticKind, BinaryOperator, broadcast_shape};
-pub(crate) use byte_table::ByteTable;
-pub(crate) use channel_scale::ChannelScale;
-pub(crate) use concat::Concat;
-pub(crate) use constant_tensor::ConstantTensor;
-pub(crate) use conv::Conv;
-pub(crate) use conv_geometry::ConvGeometry;
-pub(crate) use depth_to_space::{DepthToSpace, DepthToSpaceOrder, SpaceToDepth};
+pub(crate) use concat::{Concat, DepthToSpace, DepthToSpaceOrder, SpaceToDepth};
+pub(crate) use conv::{Conv, ConvGeometry};
 pub(crate) use integer_conv::{ByteWeightRows, IntegerConv};
-pub(crate) use integer_matmul::IntegerMatMul;
-pub(crate) use linear::Linear;
-pub(crate) use matrix_product::MatrixProduct;
-pub(crate) use normalization::{LocalResponseNorm, MeanGroup, Normalization};
+pub(crate) use matrix_product::{IntegerMatMul, Linear, MatrixProduct};
+pub(crate) use normalization::{ChannelScale, LocalResponseNorm, MeanGroup, Normalization};
 pub(crate) use pool::{Pool, PoolKind};
-pub(crate) use quantization::{Dequantize, QuantizationScales, Quantize};
+pub(crate) use quantization::{
+    ByteTable, Dequantize, QuantizationScales, Quantize, Requantization,
+};
 pub(crate) use quantized_operators::{
     QuantizedBinary, QuantizedConcat, QuantizedMean, QuantizedPool,
 };
-pub(crate) use reduced_axes::ReducedAxes;
-pub(crate) use reduction::{ArgMax, ReductionKind, ReductionOperator};
-pub(crate) use requantization::Requantization;
-pub(crate) use reshape::{FeatureView, Reshape};
+pub(crate) use reduction::{ArgMax, ReducedAxes, ReductionKind, ReductionOperator};
+pub(crate) use reshape::{ConstantTensor, FeatureView, Reshape};
 pub(crate) use resize::{NearestRounding, Resize, ResizeCoordinates, ResizeKind, ResizeSize};
 pub(crate) use selection::{ComparisonKind, ComparisonOperator, WhereOperator};
 pub(crate) use softmax::{QuantizedSoftmax, Softmax};
 pub(crate) use strided_copy::{Expand, Transpose};
 pub(crate) use transposed_conv::{TransposedConv, TransposedWindow};
 
+use super::tensor::TensorForm;
 use crate::activation::Activation;
 use crate::element::{ElementType, Encoding};
 use crate::mask::{AxisWindow, Mask};
 use crate::tensor::Tensor;
-use crate::tensor_form::TensorForm;
 use crate::threads;
 use crate::values::{TensorNumber, TensorValues};
 use std::fmt::Debug;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Pooling: the largest value or the mean of a window.
 
-use super::conv_geometry::output_length;
+use super::conv::output_length;
 use super::{
     Operator, OperatorJob, feature_size, moved_encoding, only_input, output_values,
     wrong_element_message,
 };
 use crate::element::{ElementType, Encoding, with_element_type};
 use crate::mask::{AxisWindow, Mask};
-use crate::tensor_form::TensorForm;
+use crate::tensor::TensorForm;
 use crate::threads;
 use crate::values::TensorNumber;
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Quantization of floating-point values to 8 bits, and dequantization.
+//! Quantization of floating-point values to 8 bits, and dequantization. Requantization: the
+//! conversion of exact sums of products of 8-bit values to outputs. Functions of one 8-bit
+//! value as tables of 256 entries.
 
-use super::requantization::quantize_steps;
 use super::{Operator, OperatorJob, only_input, wrong_element_message};
+use crate::activation::Activation;
 use crate::element::{ElementType, Encoding, with_byte_type, with_element_type};
-use crate::tensor_form::TensorForm;
-use crate::values::TensorNumber as _;
+use crate::tensor::TensorForm;
+use crate::values::{ByteNumber, TensorNumber};
 
 /// Scales and zero points: one for a complete tensor, or one for each index of an axis.
 #[derive(Clone, Debug)]
@@ -135,5 +137,158 @@ impl Operator for Dequantize {
 
     fn weight_bytes(&self) -> u64 {
         self.0.bytes()
+    }
+}
+
+/// The last steps of a sum: the bias of its channel is added, and the sum is scaled to the output.
+#[derive(Clone, Debug)]
+pub(crate) struct Requantization {
+    /// One bias per channel, or empty.
+    pub(crate) bias: Vec<i32>,
+    /// The quantization steps of the output per step of the sum: one factor for all channels, or
+    /// one per channel. Sums that remain sums do not use it.
+    pub(crate) factors: Vec<f32>,
+    pub(crate) to: Encoding,
+}
+
+impl Requantization {
+    /// Returns the conversion for sums that remain 32-bit integers.
+    pub(crate) fn none() -> Self {
+        Self { bias: Vec::new(), factors: vec![1.0], to: Encoding::plain(ElementType::I32) }
+    }
+
+    /// Returns the output of a channel. Sums beyond 32 bits wrap around, so that the order of
+    /// additions does not matter.
+    #[inline(always)]
+    pub(crate) fn requantize<Y: SumOutput>(&self, channel: usize, sum: i32) -> Y {
+        let bias = if self.bias.is_empty() { 0 } else { self.bias[channel] };
+        let factor = self.factors[if self.factors.len() == 1 { 0 } else { channel }];
+        Y::from_sum(sum.wrapping_add(bias), factor, self.to.zero_point)
+    }
+
+    pub(crate) fn bytes(&self) -> u64 {
+        4 * (self.bias.len() + self.factors.len()) as u64
+    }
+}
+
+/// A type of outputs that a sum can be converted to.
+pub(crate) trait SumOutput: TensorNumber {
+    fn from_sum(sum: i32, factor: f32, zero: i32) -> Self;
+}
+
+macro_rules! byte_of_sum {
+    ($number:ident) => {
+        impl SumOutput for $number {
+            #[allow(clippy::cast_precision_loss, reason = "requantization is in floating point")]
+            #[inline(always)]
+            fn from_sum(sum: i32, factor: f32, zero: i32) -> Self {
+                quantize_steps(sum as f32 * factor, zero)
+            }
+        }
+    };
+}
+byte_of_sum!(u8);
+byte_of_sum!(i8);
+
+impl SumOutput for i32 {
+    #[inline(always)]
+    fn from_sum(sum: i32, _factor: f32, _zero: i32) -> Self {
+        sum
+    }
+}
+
+impl SumOutput for f32 {
+    #[allow(clippy::cast_precision_loss, reason = "the value that the sum stands for")]
+    #[inline(always)]
+    fn from_sum(sum: i32, factor: f32, _zero: i32) -> Self {
+        sum as f32 * factor
+    }
+}
+
+/// Returns the 8-bit value for a number of quantization steps from the zero point. Halves are
+/// rounded to even, and results saturate. NaN becomes 0.
+#[inline(always)]
+pub(crate) fn quantize_steps<Y: ByteNumber>(steps: f32, zero: i32) -> Y {
+    // `FAR` is beyond the reach of any zero point. `WHOLE` lies between 2^23 and 2^24, where
+    // floating-point values are integers, so that an addition rounds halves to even on every
+    // processor without a function call.
+    const FAR: f32 = 1024.0;
+    const WHOLE: f32 = 12_582_912.0;
+    #[allow(clippy::cast_possible_truncation, reason = "it is an integer of few bits")]
+    let steps = ((steps.clamp(-FAR, FAR) + WHOLE) - WHOLE) as i32;
+    Y::from_saturated(steps + zero)
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct ByteTable {
+    from: ElementType,
+    /// The encoding of the output, or `None` if it is that of the input.
+    to: Option<Encoding>,
+    /// The results in the order of the input values, from the lowest.
+    values: Vec<i32>,
+}
+
+impl ByteTable {
+    /// Returns the table of a function of stored values.
+    pub(crate) fn from_stored_function(
+        element: ElementType,
+        function: impl Fn(i32) -> i32,
+    ) -> Self {
+        Self { from: element, to: None, values: value_range(element).map(function).collect() }
+    }
+
+    /// Returns the table of an activation of the real numbers that the values stand for.
+    #[allow(clippy::cast_precision_loss, reason = "a difference of 8-bit values")]
+    pub(crate) fn from_activation(from: Encoding, to: Encoding, activation: Activation) -> Self {
+        let entry = |value: i32| {
+            let steps = activation.apply((value - from.zero_point) as f32 * from.scale) / to.scale;
+            with_byte_type!(to.element, Y => i32::from(quantize_steps::<Y>(steps, to.zero_point)))
+        };
+        Self {
+            from: from.element,
+            to: Some(to),
+            values: value_range(from.element).map(entry).collect(),
+        }
+    }
+
+    /// Maps some values through the table.
+    #[inline(always)]
+    pub(super) fn apply<X: ByteNumber, Y: ByteNumber>(&self, from: &[X], to: &mut [Y]) {
+        for (to, &from) in to.iter_mut().zip(from) {
+            *to = Y::from_saturated(self.values[from.table_index()]);
+        }
+    }
+
+    /// Returns the encoding of the output for an input with this encoding.
+    pub(super) fn encoding_of(&self, input: Encoding) -> Result<Encoding, String> {
+        if input.element == self.from {
+            Ok(self.to.unwrap_or(input))
+        } else {
+            Err(wrong_element_message(self.from, input.element))
+        }
+    }
+}
+
+/// Returns the range of all values.
+fn value_range(element: ElementType) -> std::ops::RangeInclusive<i32> {
+    let (lowest, highest) = element.range();
+    lowest..=highest
+}
+
+impl Operator for ByteTable {
+    fn form(&self, inputs: &[&TensorForm]) -> Result<TensorForm, String> {
+        only_input(inputs).cloned()
+    }
+
+    fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
+        self.encoding_of(*inputs.first().ok_or("it has no input")?)
+    }
+
+    fn compute(&self, job: OperatorJob<'_>) {
+        let (inputs, to) = (job.inputs, job.form.encoding().element);
+        with_byte_type!(self.from, X => {
+            let from = inputs[0].values::<X>();
+            with_byte_type!(to, Y => job.fill::<Y>(|run, to| self.apply(&from[run], to)));
+        });
     }
 }

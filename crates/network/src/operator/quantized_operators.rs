@@ -2,15 +2,14 @@
 //! Sums, products, means and concatenations of 8-bit values in which each tensor has a separate
 //! scale, as onnxruntime defines them.
 
-use super::requantization::{SumOutput, quantize_steps};
+use super::quantization::{SumOutput, quantize_steps};
 use super::{
     ArithmeticKind, BinaryOperator, ByteTable, Concat, Operator, OperatorJob, Pool,
-    encoding_from_bytes, only_input, output_values,
+    encoding_from_bytes, full_if_changed, only_input, output_values, wrong_element_message,
 };
-use super::{full_if_changed, wrong_element_message};
 use crate::element::{Encoding, with_byte_type};
 use crate::mask::{AxisWindow, Mask};
-use crate::tensor_form::TensorForm;
+use crate::tensor::TensorForm;
 use crate::values::ByteNumber;
 
 /// The sum or the product of two tensors.

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Reshaping: the values of a tensor in another shape.
+//! Reshaping: the values of a tensor in another shape. A constant tensor in the place of an
+//! input that depends on the frame.
 
-use super::alignment::{aligned_mask, full_if};
-use super::{Operator, OperatorJob, ProductKind, moved_encoding, only_input};
+use super::binary_operator::{aligned_mask, full_if};
+use super::{Operator, OperatorJob, ProductKind, moved_encoding, only_input, output_values};
 use crate::element::{Encoding, with_element_type};
 use crate::mask::Mask;
-use crate::tensor_form::{TensorForm, checked_element_count};
+use crate::tensor::{Tensor, TensorForm, checked_element_count};
 use std::ops::Range;
 
 /// The values of a tensor, in the same order, in another shape.
@@ -144,4 +145,35 @@ fn copy_input(job: OperatorJob<'_>) {
     with_element_type!(job.form.encoding().element, T => {
         job.fill::<T>(|run, to| to.copy_from_slice(&inputs[0].values()[run]));
     });
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct ConstantTensor(pub(crate) Tensor);
+
+impl Operator for ConstantTensor {
+    fn form(&self, _inputs: &[&TensorForm]) -> Result<TensorForm, String> {
+        Ok(self.0.form().clone())
+    }
+
+    fn encoding(&self, _inputs: &[Encoding]) -> Result<Encoding, String> {
+        Ok(self.0.form().encoding())
+    }
+
+    fn spread(&self, _inputs: &[(&TensorForm, &Mask)], output: &TensorForm) -> Mask {
+        Mask::empty(output.height(), output.width())
+    }
+
+    fn products(&self) -> ProductKind {
+        ProductKind::NoComputation
+    }
+
+    fn compute(&self, job: OperatorJob<'_>) {
+        with_element_type!(job.form.encoding().element, T => {
+            output_values::<T>(job.output, job.form).copy_from_slice(self.0.values());
+        });
+    }
+
+    fn weight_bytes(&self) -> u64 {
+        self.0.form().bytes()
+    }
 }

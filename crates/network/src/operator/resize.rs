@@ -6,7 +6,7 @@ use super::{
 };
 use crate::element::{ElementType, Encoding, with_element_type};
 use crate::mask::Mask;
-use crate::tensor_form::TensorForm;
+use crate::tensor::TensorForm;
 use crate::values::TensorNumber;
 
 #[derive(Clone, Copy, Debug, PartialEq)]

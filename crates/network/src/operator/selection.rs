@@ -5,7 +5,7 @@ use super::binary_operator::{broadcast_form, broadcast_mask, broadcast_shape};
 use super::{Operator, OperatorJob, wrong_element_message};
 use crate::element::{ElementType, Encoding};
 use crate::mask::Mask;
-use crate::tensor_form::TensorForm;
+use crate::tensor::TensorForm;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ComparisonKind {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Softmax and its logarithm.
 
-use super::alignment::aligned_mask;
-use super::requantization::quantize_steps;
+use super::binary_operator::aligned_mask;
+use super::quantization::quantize_steps;
 use super::{Operator, OperatorJob, encoding_from_bytes, only_input, output_values};
 use crate::element::{Encoding, with_byte_type};
 use crate::mask::Mask;
-use crate::tensor_form::TensorForm;
+use crate::tensor::TensorForm;
 use crate::threads;
 use crate::values::ByteNumber;
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tensors that read an input with other strides: transposed or broadcast.
 
-use super::alignment::aligned_mask;
+use super::binary_operator::aligned_mask;
 use super::{Operator, OperatorJob, moved_encoding, only_input};
 use crate::element::{Encoding, with_element_type};
 use crate::mask::Mask;
-use crate::tensor_form::TensorForm;
+use crate::tensor::TensorForm;
 use crate::values::TensorNumber;
 
 /// Fills the output with values of the input at these strides, one for each axis of the output.

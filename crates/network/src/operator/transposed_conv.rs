@@ -9,7 +9,7 @@ use super::{Operator, OperatorJob, ProductKind, feature_size, only_input, output
 use crate::activation::Activation;
 use crate::kernel::{self, BlockSizes, ConvInput, ConvOutputs, PackedWeights, chunks_of_mask};
 use crate::mask::{AxisWindow, Mask};
-use crate::tensor_form::TensorForm;
+use crate::tensor::TensorForm;
 use crate::threads;
 use foveate_pixels::lanes::InstructionSet;
 use std::collections::BTreeMap;

@@ -2,8 +2,7 @@
 //! Fusion of activations with the operators whose outputs they take.
 
 use super::graph::GraphReader;
-use super::names::full_operator_name;
-use super::node::GraphValue;
+use super::node::{GraphValue, full_operator_name};
 use super::pointwise_operators;
 use crate::activation::Activation;
 use crate::onnx::NodeProto;

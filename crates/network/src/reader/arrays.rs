@@ -4,8 +4,7 @@
 use super::constant::Constant;
 use super::graph::{InputSource, ProblemPolicy};
 use super::model_folder::ModelFolder;
-use super::names::element_type;
-use super::node::GraphValue;
+use super::node::{GraphValue, element_type};
 use super::{OpenFile, decode_model, read_file, read_model_graph};
 use crate::error::NetworkError;
 use crate::executor::Executor;

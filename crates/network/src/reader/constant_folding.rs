@@ -3,16 +3,15 @@
 //! results computed from them.
 
 use super::constant::Constant;
-use super::constant_arithmetic;
 use super::constant_selection::{
     broadcast_constant, concat_constants, fill_constant, gather_constant, reshape_constant,
     slice_constant, transpose_constant,
 };
 use super::node::{GraphValue, NodeReader, index_from_start, length_to_i64};
-use super::quantized_operators;
 use super::reshaping::{axes_of_node, resolve_axes};
+use super::{constant_arithmetic, quantized_operators};
 use crate::operator::broadcast_shape;
-use crate::tensor_form::MAX_AXES;
+use crate::tensor::MAX_AXES;
 
 /// Returns the output of a node that depends only on constants, or `None` if the node is not one
 /// that can be folded.

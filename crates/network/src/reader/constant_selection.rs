@@ -6,7 +6,7 @@ use super::constant::Constant;
 use super::constant_values::ConstantValues;
 use super::model_folder::ModelFolder;
 use super::node::{NodeReader, index_from_start, length_to_i64};
-use crate::tensor_form::{MAX_AXES, checked_element_count};
+use crate::tensor::{MAX_AXES, checked_element_count};
 
 /// Returns a constant of this shape that repeats one value.
 pub(super) fn fill_constant(node: &NodeReader<'_>, shape: &Constant) -> Result<Constant, String> {

@@ -3,31 +3,22 @@
 
 mod activation_fusion;
 mod arrays;
-mod attributes;
 mod constant;
 mod constant_arithmetic;
 mod constant_folding;
 mod constant_selection;
 mod constant_values;
 mod graph;
-mod memory;
 mod model_folder;
-mod names;
 mod network_input;
 mod node;
-mod node_output;
-mod normalization;
 mod operators;
 mod pointwise_operators;
 mod quantized_operators;
 mod reductions;
 mod reshaping;
-mod resizing;
 mod scales;
 mod schema;
-mod slicing;
-mod tensor_data;
-mod transposed_conv;
 
 use crate::error::NetworkError;
 use crate::network::Network;
@@ -160,20 +151,20 @@ fn read_model_graph(
     on_problem: ProblemPolicy,
 ) -> Result<GraphResult, NetworkError> {
     let graph = model.graph.as_ref().ok_or_else(|| not_onnx(path, "it has no graph"))?;
-    let own = model.opset_import.iter().find(|set| names::is_standard(set.domain.as_deref()));
+    let own = model.opset_import.iter().find(|set| node::is_standard(set.domain.as_deref()));
     let opset = own.and_then(|set| set.version).unwrap_or(MAX_OPSET);
     if !(MIN_OPSET..=MAX_OPSET).contains(&opset) {
         return Err(NetworkError::InvalidNetwork(format!(
             "it uses version {opset} of the ONNX operators; versions {MIN_OPSET} to {MAX_OPSET} are supported"
         )));
     }
-    let functions = model.functions.iter().map(names::full_function_name).collect();
+    let functions = model.functions.iter().map(node::full_function_name).collect();
     graph::read_graph(graph, functions, folder, source, (opset, on_problem))
 }
 
 /// Decodes the model in a file.
 fn decode_model(bytes: &[u8], path: &Path) -> Result<ModelProto, NetworkError> {
-    let memory = memory::model_memory(bytes);
+    let memory = graph::model_memory(bytes);
     if memory > MAX_MESSAGE_BYTES {
         return Err(NetworkError::InvalidNetwork(format!(
             "it may take {} MiB of memory to read; at most {} are supported",

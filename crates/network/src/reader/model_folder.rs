@@ -4,7 +4,7 @@
 use super::OpenFile;
 use super::constant_values::ConstantValues;
 use crate::onnx::TensorProto;
-use crate::tensor_form::checked_element_count;
+use crate::tensor::checked_element_count;
 use std::cell::Cell;
 use std::io::{Read as _, Seek as _, SeekFrom};
 use std::path::{Component, Path, PathBuf};

@@ -3,13 +3,11 @@
 
 use super::constant::Constant;
 use super::model_folder::ModelFolder;
-use super::names::{full_operator_name, is_standard, node_name, value_name};
-use super::node::GraphValue;
+use super::node::{GraphValue, full_operator_name, is_standard, node_name, value_name};
 use crate::element::ElementType;
 use crate::error::NetworkError;
-use crate::input_layout::InputLayout;
 use crate::onnx::{GraphProto, NodeProto, TensorProto, ValueInfoProto, data_type};
-use crate::tensor_form::TensorForm;
+use crate::tensor::{InputLayout, TensorForm};
 use std::sync::Arc;
 
 /// The width and height of the frames, for a network that takes frames of any size.

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Access to a node for the readers of operators: attributes with their defaults, constants, and
-//! tensors.
+//! Access to a node for the readers of operators: attributes with their defaults, constants,
+//! and tensors. The outputs of a node, as they are read. The attributes of a node, with a
+//! record of which were read. Names of nodes, operators, inputs and outputs in a model.
 
-use super::attributes::NodeAttributes;
 use super::constant::Constant;
 use super::model_folder::ModelFolder;
-use super::names;
+use crate::activation::Activation;
 use crate::element::{ElementType, with_byte_type};
 use crate::mask::AxisWindow;
-use crate::onnx::{AttributeProto, NodeProto, data_type};
-use crate::operator::ConvGeometry;
-use crate::tensor::Tensor;
-use crate::tensor_form::TensorForm;
+use crate::onnx::{AttributeProto, FunctionProto, NodeProto, ValueInfoProto, data_type};
+use crate::operator::{ConvGeometry, Operator};
+use crate::tensor::{Tensor, TensorForm};
+use std::cell::RefCell;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -46,7 +46,7 @@ impl<'a> NodeReader<'a> {
 
     /// Returns the name of the operator with the domain, if that is not the standard one.
     pub(super) fn full_operator_name(&self) -> String {
-        names::full_operator_name(self.node)
+        full_operator_name(self.node)
     }
 
     fn attribute(&self, name: &str) -> Option<&AttributeProto> {
@@ -278,4 +278,109 @@ pub(super) fn length_to_i64(length: usize) -> i64 {
 /// Converts an index to one that counts from the start. A negative index counts from the end.
 pub(super) fn index_from_start(at: i64, length: usize) -> i64 {
     if at < 0 { at.saturating_add(length_to_i64(length)) } else { at }
+}
+
+/// An output of a node.
+pub(super) enum NodeOutput {
+    Constant(Constant),
+    /// The output is an input of the node.
+    Alias(GraphValue),
+    Operator(Arc<dyn Operator>, Vec<Operand>),
+    /// The output is an activation of a tensor. The operator that makes the tensor may apply it.
+    Activated(Activation, usize),
+}
+
+/// Returns one output, which an operator makes of these tensors.
+pub(super) fn output_of_tensors(
+    operator: impl Operator + 'static,
+    inputs: Vec<usize>,
+) -> Result<Vec<NodeOutput>, String> {
+    output_of_operands(operator, inputs.into_iter().map(Operand::Tensor).collect())
+}
+
+/// Returns one output, which an operator makes of tensors and constants.
+pub(super) fn output_of_operands(
+    operator: impl Operator + 'static,
+    operands: Vec<Operand>,
+) -> Result<Vec<NodeOutput>, String> {
+    Ok(vec![NodeOutput::Operator(Arc::new(operator), operands)])
+}
+
+/// The attributes of a node. An attribute that no reader asks for may change what the node
+/// computes, so each access is recorded.
+pub(super) struct NodeAttributes<'a> {
+    node: &'a NodeProto,
+    /// True for each attribute that was read, in the order of the node.
+    was_read: RefCell<Vec<bool>>,
+}
+
+impl<'a> NodeAttributes<'a> {
+    pub(super) fn new(node: &'a NodeProto) -> Self {
+        Self { node, was_read: RefCell::new(vec![false; node.attribute.len()]) }
+    }
+
+    pub(super) fn node(&self) -> &'a NodeProto {
+        self.node
+    }
+
+    /// Returns an attribute by its name, and records it as read.
+    pub(super) fn get(&self, name: &str) -> Option<&'a AttributeProto> {
+        let at = self
+            .node
+            .attribute
+            .iter()
+            .position(|attribute| attribute.name.as_deref() == Some(name))?;
+        self.was_read.borrow_mut()[at] = true;
+        Some(&self.node.attribute[at])
+    }
+
+    /// Returns the attributes that were not read.
+    pub(super) fn unread(&self) -> impl Iterator<Item = &'a AttributeProto> {
+        let read = self.was_read.borrow().clone();
+        self.node
+            .attribute
+            .iter()
+            .zip(read)
+            .filter(|(_, read)| !read)
+            .map(|(attribute, _)| attribute)
+    }
+}
+
+/// Returns true if a domain is that of the ONNX standard.
+pub(super) fn is_standard(domain: Option<&str>) -> bool {
+    matches!(domain, None | Some("" | "ai.onnx"))
+}
+
+/// Returns the name of an operator, with its domain if that is not the standard one.
+pub(super) fn full_operator_name(node: &NodeProto) -> String {
+    full_name(node.domain.as_deref(), node.op_type.as_deref())
+}
+
+/// Returns the name by which nodes call a function of the model, as for an operator.
+pub(super) fn full_function_name(function: &FunctionProto) -> String {
+    full_name(function.domain.as_deref(), function.name.as_deref())
+}
+
+fn full_name(domain: Option<&str>, kind: Option<&str>) -> String {
+    let kind = kind.unwrap_or_default();
+    match domain.filter(|domain| !is_standard(Some(domain))) {
+        Some(domain) => format!("{domain}.{kind}"),
+        None => kind.to_owned(),
+    }
+}
+
+/// Returns the name of a node, or one made from its operator and its index if the node has none.
+pub(super) fn node_name(node: &NodeProto, index: usize) -> String {
+    let name = node.name.clone().filter(|name| !name.is_empty());
+    name.unwrap_or_else(|| format!("{}_{index}", node.op_type.as_deref().unwrap_or_default()))
+}
+
+/// Returns the type of an input or an output, if the model declares one.
+pub(super) fn element_type(value: &ValueInfoProto) -> Option<i32> {
+    value.r#type.as_ref()?.tensor_type.as_ref()?.elem_type
+}
+
+/// Returns the name of an input or an output in the model.
+pub(super) fn value_name(value: &ValueInfoProto) -> &str {
+    value.name.as_deref().unwrap_or_default()
 }

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The supported ONNX operators, and the function that reads each.
+//! The supported ONNX operators, and the function that reads each. Transposed convolution, with
+//! the size of its output as ONNX defines it.
 
-use super::node::NodeReader;
-use super::node_output::{NodeOutput, output_of_tensors};
-use super::{
-    normalization, pointwise_operators, quantized_operators, reductions, reshaping, resizing,
-    slicing, transposed_conv,
-};
+use super::constant::Constant;
+use super::node::{NodeOutput, NodeReader, checked_length, length_to_i64, output_of_tensors};
+use super::{pointwise_operators, quantized_operators, reductions, reshaping};
 use crate::activation::Activation;
-use crate::operator::{ArithmeticKind, ComparisonKind, PoolKind, ReductionKind};
+use crate::operator::{
+    ArithmeticKind, ComparisonKind, PoolKind, ReductionKind, TransposedConv, TransposedWindow,
+};
+use foveate_pixels::lanes::InstructionSet;
 
 type OperatorReader = fn(&NodeReader<'_>) -> Result<Vec<NodeOutput>, String>;
 
@@ -38,9 +39,9 @@ const OPERATORS: &[(&str, OperatorReader)] = &[
     ("ConstantOfShape", |_| Err("it is supported only for constants".to_owned())),
     ("Conv", reductions::conv),
     ("ConvInteger", quantized_operators::conv_integer),
-    ("ConvTranspose", transposed_conv::conv),
+    ("ConvTranspose", conv),
     ("Cos", |node| pointwise_operators::activation(node, Activation::Cos)),
-    ("DepthToSpace", resizing::depth_to_space),
+    ("DepthToSpace", reshaping::depth_to_space),
     ("DequantizeLinear", quantized_operators::dequantize),
     ("Div", |node| pointwise_operators::binary(node, ArithmeticKind::Div)),
     ("Dropout", pointwise_operators::dropout),
@@ -53,14 +54,14 @@ const OPERATORS: &[(&str, OperatorReader)] = &[
     ("Expand", reshaping::expand),
     ("Flatten", reshaping::flatten),
     ("Floor", |node| pointwise_operators::activation(node, Activation::Floor)),
-    ("Gather", slicing::gather),
+    ("Gather", reshaping::gather),
     ("Gelu", pointwise_operators::gelu),
     ("Gemm", reductions::gemm),
     ("GlobalAveragePool", |node| reductions::global_pool(node, ReductionKind::Mean)),
     ("GlobalMaxPool", |node| reductions::global_pool(node, ReductionKind::Max)),
     ("Greater", |node| pointwise_operators::compare(node, ComparisonKind::Greater)),
     ("GreaterOrEqual", |node| pointwise_operators::compare(node, ComparisonKind::GreaterOrEqual)),
-    ("GroupNormalization", normalization::group_normalization),
+    ("GroupNormalization", reductions::group_normalization),
     ("HardSigmoid", |node| {
         pointwise_operators::activation(
             node,
@@ -72,9 +73,9 @@ const OPERATORS: &[(&str, OperatorReader)] = &[
     }),
     ("HardSwish", |node| pointwise_operators::activation(node, Activation::HardSwish)),
     ("Identity", pointwise_operators::identity),
-    ("InstanceNormalization", normalization::instance_normalization),
-    ("LRN", normalization::local_response_norm),
-    ("LayerNormalization", normalization::layer_normalization),
+    ("InstanceNormalization", reductions::instance_normalization),
+    ("LRN", reductions::local_response_norm),
+    ("LayerNormalization", reductions::layer_normalization),
     ("LeakyRelu", |node| {
         pointwise_operators::activation(
             node,
@@ -84,7 +85,7 @@ const OPERATORS: &[(&str, OperatorReader)] = &[
     ("Less", |node| pointwise_operators::compare(node, ComparisonKind::Less)),
     ("LessOrEqual", |node| pointwise_operators::compare(node, ComparisonKind::LessOrEqual)),
     ("Log", |node| pointwise_operators::activation(node, Activation::Log)),
-    ("LogSoftmax", |node| normalization::softmax(node, true)),
+    ("LogSoftmax", |node| reductions::softmax(node, true)),
     ("MatMul", reductions::matmul),
     ("MatMulInteger", quantized_operators::matmul_integer),
     ("Max", |node| pointwise_operators::binary(node, ArithmeticKind::Max)),
@@ -96,7 +97,7 @@ const OPERATORS: &[(&str, OperatorReader)] = &[
     ("Mul", |node| pointwise_operators::binary(node, ArithmeticKind::Mul)),
     ("Neg", |node| pointwise_operators::activation(node, Activation::Neg)),
     ("PRelu", |node| pointwise_operators::binary(node, ArithmeticKind::PRelu)),
-    ("Pad", slicing::pad),
+    ("Pad", reshaping::pad),
     ("Pow", pointwise_operators::power),
     ("QLinearConv", quantized_operators::conv),
     ("QLinearMatMul", quantized_operators::matmul),
@@ -113,7 +114,7 @@ const OPERATORS: &[(&str, OperatorReader)] = &[
     ("ReduceSumSquare", |node| reductions::reduce(node, ReductionKind::SumSquare)),
     ("Relu", pointwise_operators::relu),
     ("Reshape", reshaping::reshape),
-    ("Resize", resizing::resize),
+    ("Resize", reshaping::resize),
     ("Round", |node| pointwise_operators::activation(node, Activation::Round)),
     ("Selu", |node| {
         pointwise_operators::activation(
@@ -128,12 +129,12 @@ const OPERATORS: &[(&str, OperatorReader)] = &[
     ("Sigmoid", |node| pointwise_operators::activation(node, Activation::Sigmoid)),
     ("Sign", |node| pointwise_operators::activation(node, Activation::Sign)),
     ("Sin", |node| pointwise_operators::activation(node, Activation::Sin)),
-    ("Slice", slicing::slice),
-    ("Softmax", |node| normalization::softmax(node, false)),
+    ("Slice", reshaping::slice),
+    ("Softmax", |node| reductions::softmax(node, false)),
     ("Softplus", |node| pointwise_operators::activation(node, Activation::Softplus)),
     ("Softsign", |node| pointwise_operators::activation(node, Activation::Softsign)),
-    ("SpaceToDepth", resizing::space_to_depth),
-    ("Split", slicing::split),
+    ("SpaceToDepth", reshaping::space_to_depth),
+    ("Split", reshaping::split),
     ("Sqrt", |node| pointwise_operators::activation(node, Activation::Sqrt)),
     ("Squeeze", reshaping::squeeze),
     ("Sub", |node| pointwise_operators::binary(node, ArithmeticKind::Sub)),
@@ -150,7 +151,7 @@ const OPERATORS: &[(&str, OperatorReader)] = &[
     }),
     ("Transpose", reshaping::transpose),
     ("Unsqueeze", reshaping::unsqueeze),
-    ("Upsample", resizing::resize),
+    ("Upsample", reshaping::resize),
     ("Where", pointwise_operators::select),
     ("com.microsoft.QGemm", quantized_operators::gemm),
     ("com.microsoft.QLinearAdd", |node| quantized_operators::binary(node, ArithmeticKind::Add)),
@@ -187,4 +188,91 @@ pub(super) fn read_outputs(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, Str
         .find(|&&(name, _)| name == node.full_operator_name())
         .expect("the operator is known");
     maker(node)
+}
+
+pub(super) fn conv(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
+    let value = node.tensor_input(0)?;
+    let weights = node.required_constant(1, "weights")?;
+    let bias = node.constant(2, "bias")?.map(Constant::as_floats).transpose()?;
+    let &[_, _, height, width] = weights.shape.as_slice() else {
+        return Err(format!(
+            "its weights have {} axes; only two-dimensional convolution is supported",
+            weights.shape.len()
+        ));
+    };
+    if let Some(kernel) = node.kernel_shape()?.filter(|&kernel| kernel != [height, width]) {
+        return Err(format!(
+            "its kernel_shape is {kernel:?}, but its weights are {height}x{width}"
+        ));
+    }
+    let groups = checked_length("group", node.int("group", 1))?;
+    let reaches =
+        [transposed_window(node, value, 0, height)?, transposed_window(node, value, 1, width)?];
+    let conv = TransposedConv::new(
+        &weights.shape,
+        weights.as_weights()?,
+        bias,
+        reaches,
+        groups,
+        InstructionSet::detect(),
+    )?;
+    output_of_tensors(conv, vec![value])
+}
+
+/// Returns the window of a transposed convolution along rows (0) or columns (1).
+fn transposed_window(
+    node: &NodeReader<'_>,
+    value: usize,
+    axis: usize,
+    kernel: usize,
+) -> Result<TransposedWindow, String> {
+    let form = (node.forms)(value);
+    let [_, _, sizes @ ..] = form.shape() else {
+        return Err(format!("its input must be features, not {}", form.describe()));
+    };
+    let &size = sizes.get(axis).ok_or("its input must be features")?;
+    let along = |name: &str| match node.ints(name) {
+        None => Ok(None),
+        Some(&[rows, columns]) => Ok(Some([rows, columns][axis])),
+        Some(ints) => Err(format!("its {name} has {} values, not 2", ints.len())),
+    };
+    let of = |name: &str| checked_length(name, along(name)?.unwrap_or(1));
+    let (kernel, stride, dilation) =
+        (checked_length("kernel", length_to_i64(kernel))?, of("strides")?, of("dilations")?);
+    let more = match along("output_padding")?.unwrap_or(0) {
+        more if (0..1 << 16).contains(&more) => more,
+        more => return Err(format!("its output_padding is {more}; it must be 0 to 65535")),
+    };
+    // The sums fit, because lengths are below 2^28, and strides and kernels below 2^16.
+    let (size, step) = (length_to_i64(size), length_to_i64(stride));
+    let all = (size - 1) * step + more + length_to_i64((kernel - 1) * dilation) + 1;
+    let mode = node.text("auto_pad", "NOTSET");
+    let wanted = match (along("output_shape")?, mode.as_str()) {
+        (Some(wanted), _) => Some(wanted),
+        (None, "SAME_UPPER" | "SAME_LOWER") => Some(size * step),
+        (None, _) => None,
+    };
+    let [before, after] = match (wanted, mode.as_str(), node.ints("pads")) {
+        (Some(wanted), mode, _) => {
+            let cut = all.checked_sub(wanted).unwrap_or(-1);
+            if mode == "SAME_UPPER" { [cut / 2, cut - cut / 2] } else { [cut - cut / 2, cut / 2] }
+        }
+        (None, "VALID", _) | (None, "NOTSET", None) => [0, 0],
+        (None, "NOTSET", Some(&[top, left, bottom, right])) => [[top, bottom], [left, right]][axis],
+        (None, "NOTSET", Some(pads)) => {
+            return Err(format!("its pads have {} values, not 4", pads.len()));
+        }
+        (None, mode, _) => return Err(format!("its auto_pad is `{mode}`")),
+    };
+    let cut = |pad: i64| {
+        usize::try_from(pad)
+            .ok()
+            .filter(|&pad| pad < 1 << 16)
+            .ok_or_else(|| format!("it would cut off {pad} outputs; pads are 0 to 65535"))
+    };
+    let (before, after) = (cut(before)?, cut(after)?);
+    let outputs = usize::try_from(all - length_to_i64(before) - length_to_i64(after)).ok();
+    let outputs = outputs.filter(|&outputs| outputs > 0);
+    let outputs = outputs.ok_or_else(|| format!("pads of {before} and {after} leave no output"))?;
+    Ok(TransposedWindow { kernel, stride, dilation, before, outputs })
 }

@@ -3,8 +3,7 @@
 
 use super::constant::Constant;
 use super::constant_arithmetic;
-use super::node::{GraphValue, NodeReader};
-use super::node_output::{NodeOutput, output_of_operands, output_of_tensors};
+use super::node::{GraphValue, NodeOutput, NodeReader, output_of_operands, output_of_tensors};
 use crate::activation::Activation;
 use crate::element::ElementType;
 use crate::onnx::data_type;
@@ -12,8 +11,7 @@ use crate::operator::{
     ActivationOperator, ArithmeticKind, BinaryOperator, ByteTable, ChannelScale, ComparisonKind,
     ComparisonOperator, Dequantize, Operator, QuantizationScales, WhereOperator,
 };
-use crate::tensor::Tensor;
-use crate::tensor_form::TensorForm;
+use crate::tensor::{Tensor, TensorForm};
 use std::sync::Arc;
 
 /// Returns an activation as a separate operator.

@@ -3,10 +3,8 @@
 
 use super::constant::Constant;
 use super::constant_values::ConstantValues;
-use super::node::{GraphValue, NodeReader};
-use super::node_output::{NodeOutput, output_of_tensors};
-use super::normalization::softmax_operator;
-use super::reductions::pool;
+use super::node::{GraphValue, NodeOutput, NodeReader, output_of_tensors};
+use super::reductions::{pool, softmax_operator};
 use super::scales::{byte_weight_rows, row_major_matrix};
 use crate::activation::Activation;
 use crate::element::{ElementType, Encoding};
@@ -16,8 +14,7 @@ use crate::operator::{
     PoolKind, Quantize, QuantizedBinary, QuantizedConcat, QuantizedMean, QuantizedPool,
     QuantizedSoftmax, Requantization,
 };
-use crate::tensor::Tensor;
-use crate::tensor_form::TensorForm;
+use crate::tensor::{Tensor, TensorForm};
 use foveate_pixels::lanes::InstructionSet;
 
 type QuantizedResult<T> = Result<T, String>;

@@ -3,8 +3,8 @@
 //! and its attributes. `scripts/checks/onnx_schemas.py` compares the table with the schemas of ONNX
 //! and onnxruntime.
 
-use super::attributes::NodeAttributes;
-use super::names;
+use super::node;
+use super::node::NodeAttributes;
 use crate::onnx::{AttributeProto, NodeProto, attribute_type};
 use std::collections::HashMap;
 use std::sync::LazyLock;
@@ -83,7 +83,7 @@ impl OperatorSchema {
     pub(super) fn check_unread(attributes: &NodeAttributes<'_>, opset: i64) -> Result<(), String> {
         let node = attributes.node();
         let Some(schema) = Self::for_node(node, opset)? else { return Ok(()) };
-        let operator = names::full_operator_name(node);
+        let operator = node::full_operator_name(node);
         let without_effect =
             WITHOUT_EFFECT.iter().find(|(kind, _)| *kind == operator).map(|&(_, names)| names);
         for attribute in attributes.unread() {
@@ -101,11 +101,11 @@ impl OperatorSchema {
 
     /// Returns the line for a version, or `None` if the table does not have the operator.
     fn for_node(node: &NodeProto, opset: i64) -> Result<Option<&'static Self>, String> {
-        let Some(lines) = SCHEMAS.get(names::full_operator_name(node).as_str()) else {
+        let Some(lines) = SCHEMAS.get(node::full_operator_name(node).as_str()) else {
             return Ok(None);
         };
         // Operators of other domains have a separate version, which is 1.
-        let version = if names::is_standard(node.domain.as_deref()) { opset } else { 1 };
+        let version = if node::is_standard(node.domain.as_deref()) { opset } else { 1 };
         match lines.iter().rev().find(|schema| schema.first_version <= version) {
             Some(schema) => Ok(Some(schema)),
             None => Err(format!(

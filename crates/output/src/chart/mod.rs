@@ -3,16 +3,9 @@
 //! the same on a machine without fonts. The colours are those of the palette; from the eighth
 //! series on, lines are dashed. The module does not depend on the meaning of the data.
 
-mod axes;
-mod bars;
 mod canvas;
 mod chart_data;
 mod chart_files;
 mod drawing;
-mod error;
-mod label;
-mod legend;
-mod series_style;
 
-pub use chart_data::{BarSeries, Chart, ChartData, ChartSeries, LineLook};
-pub use error::ChartError;
+pub use chart_data::{BarSeries, Chart, ChartData, ChartError, ChartSeries, LineLook};

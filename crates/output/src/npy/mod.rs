@@ -2,10 +2,8 @@
 //! NumPy arrays as files, which are written frame by frame and read as a whole. The module does not
 //! depend on the meaning of the values.
 
-mod element_type;
 mod reader;
 mod writer;
 
-pub use element_type::ElementType;
 pub use reader::{NpyArray, NpyError, read_array};
-pub use writer::{NpyWriter, npy_header};
+pub use writer::{ElementType, NpyWriter, npy_header};

@@ -5,16 +5,15 @@
 mod axis;
 #[cfg(feature = "browser")]
 pub mod browser;
-mod colour;
 mod document;
-mod error;
 mod plot;
 mod table;
 
 pub use axis::PlotAxis;
-pub use colour::{COLOUR_COUNT, colour_variables, group_look};
-pub use document::{HeadingFigure, LinkTarget, PageNotice, ResultPage};
-pub use error::PageError;
+pub use document::{
+    COLOUR_COUNT, HeadingFigure, LinkTarget, PageError, PageNotice, ResultPage, colour_variables,
+    group_look,
+};
 pub use plot::{
     AxisPosition, PagePlot, PlotAxes, PlotLine, PlotMark, coordinate_text, front_path, line_path,
     nest_marks,

@@ -2,12 +2,10 @@
 //! Tables as files: CSV that every reader accepts, and Parquet. The module does not depend on the
 //! meaning of the rows.
 
-mod csv_text;
 mod parquet;
 mod table;
 mod value;
 
 pub use self::parquet::ParquetWriter;
-pub use csv_text::{csv_text, escape_name};
-pub use table::{NamedCells, Table, TableCell};
+pub use table::{NamedCells, Table, TableCell, csv_text, escape_name};
 pub use value::{Column, ColumnType, TableValue};

@@ -3,9 +3,17 @@
 //!
 //! A pixel of up to 8 bits is a byte, a wider one is a 16-bit word. The kernels are generic over
 //! both. Loops run over blocks of [`BLOCK_LANES`] lanes, so that no loop has a remainder.
+//!
+//! FAST 5/8 as a network of minima and maxima.
+//!
+//! The score of an arc is the minimum of its five pixels, and the best arc has the largest of the
+//! eight minima. Two arcs that share four pixels have the maximum
+//! `min(four, max(pixel before, pixel after))`, so four groups of four pixels serve all eight arcs.
+//!
+//! Buffers that start at a cache line, so that each block lies in one cache line.
 
 use std::fmt::Debug;
-use std::ops::{Add, AddAssign, BitAnd, BitXor, Neg, Sub};
+use std::ops::{Add, AddAssign, BitAnd, BitXor, Deref, DerefMut, Neg, Sub};
 
 /// The number of lanes of a block, which is the number of bytes of an AVX-512 register.
 pub const BLOCK_LANES: usize = 64;
@@ -133,4 +141,105 @@ lane!(u16, signed i32, sum u32, square u64);
 /// not fit into the lane type cannot be exceeded, so the largest value of the type replaces it.
 pub fn saturated_threshold<T: PixelLane>(value: u32) -> T {
     T::try_from(value).unwrap_or(T::MAX)
+}
+
+/// Returns the score of the best of the eight arcs of five neighbors in a ring. `worse` returns the
+/// worse of two pixels, and `better` the better one. The score of an arc is its worst pixel. With
+/// minimum and maximum, the best arc is the brightest one; with maximum and minimum, the darkest.
+#[inline(always)]
+pub fn best_arc<T: PixelLane>(
+    x: [T; 8],
+    worse: impl Fn(T, T) -> T,
+    better: impl Fn(T, T) -> T,
+) -> T {
+    let pair = [worse(x[0], x[1]), worse(x[2], x[3]), worse(x[4], x[5]), worse(x[6], x[7])];
+    // An arc is the four pixels k to k + 3 with a fifth, k - 1 or k + 4.
+    let best_of_two = |four: T, before: T, after: T| worse(four, better(before, after));
+    let a = best_of_two(worse(pair[0], pair[1]), x[7], x[4]);
+    let b = best_of_two(worse(pair[1], pair[2]), x[1], x[6]);
+    let c = best_of_two(worse(pair[2], pair[3]), x[3], x[0]);
+    let d = best_of_two(worse(pair[3], pair[0]), x[5], x[2]);
+    better(better(a, b), better(c, d))
+}
+
+/// A buffer whose first value is at the start of a cache line.
+#[derive(Debug)]
+pub struct AlignedBuffer<T> {
+    store: Vec<T>,
+    start: usize,
+    len: usize,
+}
+
+impl<T: Copy + Default> AlignedBuffer<T> {
+    /// Returns a buffer of `len` default values.
+    pub fn new(len: usize) -> Self {
+        let store = vec![T::default(); len + BLOCK_LANES];
+        let start = store.as_ptr().align_offset(64).min(BLOCK_LANES);
+        Self { store, start, len }
+    }
+}
+
+impl<T> AlignedBuffer<T> {
+    /// The values as blocks. A remainder that fills no whole block is left out.
+    pub fn blocks(&self) -> &[Block<T>] {
+        self.as_chunks().0
+    }
+
+    /// The values as mutable blocks. A remainder that fills no whole block is left out.
+    pub fn blocks_mut(&mut self) -> &mut [Block<T>] {
+        self.as_chunks_mut().0
+    }
+}
+
+impl<T: Copy + Default> Clone for AlignedBuffer<T> {
+    /// Copies the values into a new aligned buffer.
+    fn clone(&self) -> Self {
+        let mut copy = Self::new(self.len);
+        copy.copy_from_slice(self);
+        copy
+    }
+}
+
+impl<T> Deref for AlignedBuffer<T> {
+    type Target = [T];
+
+    #[inline(always)]
+    fn deref(&self) -> &[T] {
+        &self.store[self.start..][..self.len]
+    }
+}
+
+impl<T> DerefMut for AlignedBuffer<T> {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut [T] {
+        &mut self.store[self.start..][..self.len]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_ring_of_zeros_and_ones_has_its_best_arc() {
+        for bits in 0..256u32 {
+            let ring: [u8; 8] = std::array::from_fn(|place| u8::from(bits >> place & 1 == 1));
+            let has_arc_of =
+                |value| (0..8).any(|start| (0..5).all(|k| ring[(start + k) % 8] == value));
+            assert_eq!(best_arc(ring, u8::min, u8::max) == 1, has_arc_of(1), "{ring:?}");
+            assert_eq!(best_arc(ring, u8::max, u8::min) == 0, has_arc_of(0), "{ring:?}");
+        }
+    }
+
+    #[test]
+    fn buffers_and_their_copies_start_at_a_cache_line() {
+        for len in [0, 1, 64, 1000] {
+            let mut buffer = AlignedBuffer::<u16>::new(len);
+            buffer.fill(7);
+            let copy = buffer.clone();
+            assert_eq!(copy.as_ptr().align_offset(64), 0);
+            assert_eq!(copy[..], vec![7; len]);
+            assert_eq!(copy.blocks().len(), len / BLOCK_LANES);
+        }
+    }
 }

@@ -8,12 +8,8 @@
 //! * [`AlignedBuffer`]: a buffer whose blocks are cache lines.
 //! * [`best_arc`]: FAST 5/8 as a network of minima and maxima.
 
-mod aligned_buffer;
 mod instruction_set;
 mod lane;
-mod ring;
 
-pub use aligned_buffer::AlignedBuffer;
 pub use instruction_set::{InstructionSet, PanelTask, VectorTask, prefetch};
-pub use lane::{BLOCK_LANES, Block, PixelLane, saturated_threshold};
-pub use ring::best_arc;
+pub use lane::{AlignedBuffer, BLOCK_LANES, Block, PixelLane, best_arc, saturated_threshold};

@@ -9,7 +9,6 @@
 mod canvas;
 mod error;
 mod frames;
-mod noise;
 mod patterns;
 mod scene;
 mod street;

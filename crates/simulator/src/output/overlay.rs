@@ -7,21 +7,24 @@
 //! outlines the frame is dimmed, and the colour of a region says which of its two conditions holds. An
 //! arrow shows the displacement of a region, bright if `flow` votes for the region and faint otherwise.
 //! Without scores it is bright if the region is relevant. Classes of regions have marks.
-
-use foveate_camera::{Camera, Displacement, RegionAction};
-use foveate_engine::FrameOutcome;
-use foveate_output::palette::{ACTIVE, ACTIVE_BRIGHT, CHANGED, Colour, RELEVANT, SERIES};
-use foveate_pixels::{ByteFrame, convert_depth};
+//!
+//! The marks of classes of regions in a picture: regions that are off are hatched, and a line
+//! in the colour of the class surrounds the areas of regions that are keen or always relevant.
+//! The legend below a picture: marks with words, in as many lines as they need.
 
 use super::OverlayStyle;
 use super::activity_chart::ActivityChart;
 use super::arrow::Arrow;
-use super::canvas::{PictureCanvas, PictureLayout, TEXT, mix};
-use super::class_marks::ClassMarks;
-use super::legend::{Legend, LegendKey, LegendMark, NOT_SENT, SENT};
+use super::canvas::{
+    BACKGROUND, LINE_DOTS, PictureCanvas, PictureLayout, TEXT, TEXT_DOTS, mix, text_width,
+};
 use super::picture_series::PicturePainter;
-use super::raw_image::to_byte;
+use super::png_writers::to_byte;
 use super::sink::SinkFrame;
+use foveate_camera::{Camera, Displacement, RegionAction, RegionClass};
+use foveate_engine::FrameOutcome;
+use foveate_output::palette::{ACTIVE, ACTIVE_BRIGHT, CHANGED, Colour, RELEVANT, SERIES};
+use foveate_pixels::{ByteFrame, convert_depth};
 
 /// Regions with smaller sides are drawn without lines, which would cover them.
 const SMALLEST_GRID: u32 = 6;
@@ -286,11 +289,196 @@ fn tinted(grey: u32, tint: Option<Colour>) -> Colour {
     mixed.map(|value| u8::try_from(value).expect("between two bytes"))
 }
 
+/// The classes of the regions of a camera, with at least one that is not normal.
+pub(super) struct ClassMarks<'a> {
+    classes: &'a [RegionClass],
+    columns: u32,
+    rows: u32,
+}
+
+impl<'a> ClassMarks<'a> {
+    /// Returns the marks of the map in a camera's configuration, or `None` if all of its regions are
+    /// normal.
+    pub(super) fn of_camera(camera: &'a Camera) -> Option<Self> {
+        let classes = camera.zones()?.configured_classes();
+        let is_marked = classes.iter().any(|&class| class != RegionClass::Normal);
+        is_marked.then(|| Self { classes, columns: camera.columns(), rows: camera.rows() })
+    }
+
+    /// Draws the marks on the picture of a frame.
+    pub(super) fn draw(&self, canvas: &mut PictureCanvas, cell: u32, layout: PictureLayout) {
+        for (region, &class) in (0..).zip(self.classes) {
+            let place = (region % self.columns, region / self.columns);
+            let area = layout.region_area(cell, place);
+            match class {
+                RegionClass::Normal => {}
+                RegionClass::Off => canvas.hatch(area, layout.dot),
+                RegionClass::Keen | RegionClass::Always => {
+                    self.draw_edges(canvas, place, area, layout.dot);
+                }
+            }
+        }
+    }
+
+    /// Returns the keys of the classes that the map has.
+    pub(super) fn legend_keys(&self) -> Vec<LegendKey> {
+        let marked = RegionClass::ALL.iter().filter(|class| self.classes.contains(class));
+        let key = |&class| {
+            let mark = match class_colour(class) {
+                Some(colour) => LegendMark::Border(colour),
+                None if class == RegionClass::Off => LegendMark::Hatched,
+                None => return None,
+            };
+            Some(LegendKey::new(mark, &format!("zone: {}", class.name())))
+        };
+        marked.filter_map(key).collect()
+    }
+
+    /// Draws a line on the sides of a region beyond which another class begins.
+    fn draw_edges(
+        &self,
+        canvas: &mut PictureCanvas,
+        (column, row): (u32, u32),
+        [left, top, width, height]: [u32; 4],
+        dot: u32,
+    ) {
+        let own = self.class_at(column, row);
+        let colour = own.and_then(class_colour).unwrap_or(BACKGROUND);
+        let line = dot.min(width).min(height);
+        let ends =
+            |x: Option<u32>, y: Option<u32>| x.zip(y).and_then(|(x, y)| self.class_at(x, y)) != own;
+        let mut draw = |is_edge: bool, [left, top, width, height]: [u32; 4]| {
+            if is_edge {
+                canvas.fill_rectangle(left, top, width, height, colour);
+            }
+        };
+        let (x, y) = (Some(column), Some(row));
+        draw(ends(column.checked_sub(1), y), [left, top, line, height]);
+        draw(ends(column.checked_add(1), y), [left + width - line, top, line, height]);
+        draw(ends(x, row.checked_sub(1)), [left, top, width, line]);
+        draw(ends(x, row.checked_add(1)), [left, top + height - line, width, line]);
+    }
+
+    fn class_at(&self, column: u32, row: u32) -> Option<RegionClass> {
+        let is_inside = column < self.columns && row < self.rows;
+        is_inside.then(|| self.classes[(row * self.columns + column) as usize])
+    }
+}
+
+/// Returns the colour of the line around regions of a class.
+fn class_colour(class: RegionClass) -> Option<Colour> {
+    match class {
+        RegionClass::Keen => Some(SERIES[0]),
+        RegionClass::Always => Some(SERIES[1]),
+        RegionClass::Normal | RegionClass::Off => None,
+    }
+}
+
+/// The space between two keys in dots.
+const SPACE_DOTS: u32 = 4;
+
+/// The mark of a key.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum LegendMark {
+    /// A square of a colour with a border of another one.
+    Filled(Colour, Colour),
+    /// The border of a square.
+    Border(Colour),
+    /// A hatched square.
+    Hatched,
+    Arrow(Colour),
+}
+
+/// A mark and what it means.
+#[derive(Clone, Debug)]
+pub(super) struct LegendKey {
+    pub(super) mark: LegendMark,
+    pub(super) text: String,
+    /// The longest text that the key may have in another frame.
+    pub(super) longest: String,
+}
+
+impl LegendKey {
+    pub(super) fn new(mark: LegendMark, text: &str) -> Self {
+        Self { mark, text: text.to_owned(), longest: text.to_owned() }
+    }
+
+    fn width(&self, dot: u32) -> u32 {
+        text_width(&self.longest, dot) + (self.mark.width_dots() + 2) * dot
+    }
+}
+
+impl LegendMark {
+    fn width_dots(self) -> u32 {
+        if matches!(self, Self::Arrow(_)) { 2 * TEXT_DOTS } else { TEXT_DOTS }
+    }
+
+    fn draw(self, canvas: &mut PictureCanvas, left: u32, top: u32, dot: u32) {
+        let side = TEXT_DOTS * dot;
+        let (area, line) = ([left, top, side, side], dot.div_ceil(2));
+        match self {
+            Self::Filled(colour, border) => {
+                canvas.fill_rectangle(left, top, side, side, colour);
+                canvas.draw_border(area, line, border);
+            }
+            Self::Border(colour) => canvas.draw_border(area, line, colour),
+            Self::Hatched => {
+                canvas.fill_rectangle(left, top, side, side, [128; 3]);
+                canvas.hatch(area, dot);
+            }
+            Self::Arrow(colour) => {
+                let [start, top, side] = [left, top, side].map(f64::from);
+                let middle = top + side / 2.0;
+                let (tail, tip) = ([start, middle], [start + 2.0 * side, middle]);
+                Arrow { tail, tip, head_width: side }.draw(canvas, colour, 1.0);
+            }
+        }
+    }
+}
+
+/// The keys of a picture, each with its place.
+pub(super) struct Legend {
+    keys: Vec<(LegendKey, u32, u32)>,
+    dot: u32,
+    pub(super) height: u32,
+}
+
+impl Legend {
+    /// Places the keys below the frame of a picture.
+    pub(super) fn new(keys: Vec<LegendKey>, layout: PictureLayout) -> Self {
+        let dot = layout.dot;
+        let (start, mut top) = (2 * dot, layout.frame_height + 2 * dot);
+        let mut left = start;
+        let mut placed = Vec::new();
+        for key in keys {
+            let width = key.width(dot);
+            if left > start && left + width > layout.width {
+                (left, top) = (start, top + LINE_DOTS * dot);
+            }
+            placed.push((key, left, top));
+            left += width + SPACE_DOTS * dot;
+        }
+        let height = top + (LINE_DOTS - 2) * dot - layout.frame_height;
+        Self { keys: placed, dot, height }
+    }
+
+    pub(super) fn draw(&self, canvas: &mut PictureCanvas) {
+        let dot = self.dot;
+        for &(LegendKey { mark, ref text, .. }, left, top) in &self.keys {
+            mark.draw(canvas, left, top, dot);
+            canvas.draw_text(left + (mark.width_dots() + 2) * dot, top, dot, text);
+        }
+    }
+}
+
+/// The marks of what is sent as a whole, and of what is not sent.
+pub(super) const SENT: LegendMark = LegendMark::Filled([235; 3], TEXT);
+pub(super) const NOT_SENT: LegendMark = LegendMark::Filled([48; 3], [120; 3]);
+
 #[cfg(test)]
 mod tests {
-    use foveate_output::palette::vision::{VISIONS, distance};
-
     use super::*;
+    use foveate_output::palette::vision::{VISIONS, distance};
 
     /// Also in grey, where a border marks means: what is sent is brighter than what is not. Content darker
     /// than 48 of 255 looks nearly the same; outlines show it.

@@ -8,9 +8,7 @@ use foveate_tools::Interrupt;
 
 use super::PictureFormat;
 use super::canvas::{PictureCanvas, PictureLayout};
-use super::png_series::PngSeries;
-use super::png_writers::PngWriters;
-use super::raw_image::RawImage;
+use super::png_writers::{PngSeries, PngWriters, RawImage};
 use super::sink::{FrameSink, SinkFrame};
 use super::video_file::VideoFile;
 use crate::SimulatorError;

@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A pool of threads that write PNG files in parallel, because the compression of a picture takes
-//! longer than all other work for a frame. A picture for which the disk has no space is kept in
-//! memory until the end.
+//! A pool of threads that write PNG files in parallel, because the compression of a picture
+//! takes longer than all other work for a frame. A picture for which the disk has no space is
+//! kept in memory until the end. PNG files of pictures. Numbered PNG files in a folder of their
+//! own. A picture in memory, before it is written as a PNG or a video frame.
 
-use std::io;
-use std::path::PathBuf;
+use super::cannot_write;
+use super::canvas::PictureCanvas;
+use super::sink::SinkFrame;
+use crate::SimulatorError;
+use foveate_pixels::{FramePixels, convert_depth, display_depth};
+use foveate_tools::is_full;
+use image::codecs::png::{CompressionType, FilterType, PngEncoder};
+use image::{ExtendedColorType, ImageEncoder, ImageError};
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::{Builder, JoinHandle};
-
-use super::raw_image::RawImage;
-use super::{cannot_write, png};
-use crate::SimulatorError;
-use foveate_tools::is_full;
+use std::{fs, io};
 
 /// The largest number of threads. More threads do not help, because other work is then the limit.
 const MAX_THREADS: usize = 8;
@@ -120,7 +124,7 @@ impl PngWriters {
         }
         let mut bytes = Vec::new();
         for PngJob { path, picture } in std::mem::take(&mut self.unwritten) {
-            png::write(&path, &picture, &mut bytes).map_err(cannot_write(&path))?;
+            write(&path, &picture, &mut bytes).map_err(cannot_write(&path))?;
         }
         Ok(())
     }
@@ -146,9 +150,111 @@ fn write_pictures(queue: &Mutex<Receiver<PngJob>>, done: &Sender<(PngJob, io::Re
     loop {
         let job = queue.lock().unwrap_or_else(PoisonError::into_inner).recv();
         let Ok(job) = job else { return };
-        let result = png::write(&job.path, &job.picture, &mut bytes);
+        let result = write(&job.path, &job.picture, &mut bytes);
         if done.send((job, result)).is_err() {
             return;
         }
     }
+}
+
+/// Encodes a picture into `bytes` and writes it to a file at once.
+pub(super) fn write(path: &Path, picture: &RawImage, bytes: &mut Vec<u8>) -> io::Result<()> {
+    let colour = match picture.samples {
+        SampleFormat::Grey8 => ExtendedColorType::L8,
+        // The encoder takes the byte order of the machine, and writes that of PNG.
+        SampleFormat::Grey16 => ExtendedColorType::L16,
+        SampleFormat::Rgb8 => ExtendedColorType::Rgb8,
+    };
+    bytes.clear();
+    PngEncoder::new_with_quality(&mut *bytes, CompressionType::Fast, FilterType::Paeth)
+        .write_image(&picture.bytes, picture.width, picture.height, colour)
+        .map_err(|error| match error {
+            ImageError::IoError(error) => error,
+            other => io::Error::other(other),
+        })?;
+    fs::write(path, bytes)
+}
+
+/// A folder of pictures `000000.png`, `000001.png` and so on.
+pub(super) struct PngSeries {
+    folder: PathBuf,
+    next: u64,
+    pub(super) writers: PngWriters,
+}
+
+impl PngSeries {
+    pub(super) fn create(folder: PathBuf) -> Result<Self, SimulatorError> {
+        fs::create_dir(&folder).map_err(cannot_write(&folder))?;
+        Ok(Self { folder, next: 0, writers: PngWriters::new()? })
+    }
+
+    pub(super) fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    pub(super) fn push(&mut self, picture: RawImage) {
+        let path = self.folder.join(format!("{:06}.png", self.next));
+        self.next += 1;
+        self.writers.push(path, picture);
+    }
+}
+
+/// The sample format of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum SampleFormat {
+    Grey8,
+    /// Words in the byte order of the machine.
+    Grey16,
+    Rgb8,
+}
+
+/// A picture as bytes.
+pub(super) struct RawImage {
+    pub(super) width: u32,
+    pub(super) height: u32,
+    pub(super) samples: SampleFormat,
+    pub(super) bytes: Vec<u8>,
+}
+
+impl From<PictureCanvas> for RawImage {
+    fn from(canvas: PictureCanvas) -> Self {
+        let PictureCanvas { width, height, rgb } = canvas;
+        Self { width, height, samples: SampleFormat::Rgb8, bytes: rgb }
+    }
+}
+
+impl RawImage {
+    /// Makes a picture of the screen, at the depth of [`display_depth`]. It reuses the memory of
+    /// `bytes`.
+    pub(super) fn of_screen(sink_frame: &SinkFrame<'_>, mut bytes: Vec<u8>) -> Self {
+        let bits = sink_frame.camera.pixel_bits();
+        let depth = display_depth(bits);
+        let shown = |value: u16| convert_depth(value, bits, depth);
+        bytes.clear();
+        let samples = match sink_frame.screen {
+            FramePixels::Bytes(pixels) if bits == depth => {
+                bytes.extend_from_slice(pixels);
+                SampleFormat::Grey8
+            }
+            FramePixels::Bytes(pixels) => {
+                bytes.extend(pixels.iter().map(|&value| to_byte(shown(value.into()))));
+                SampleFormat::Grey8
+            }
+            FramePixels::Words(pixels) => {
+                bytes.extend(pixels.iter().flat_map(|&value| shown(value).to_ne_bytes()));
+                SampleFormat::Grey16
+            }
+        };
+        Self {
+            width: sink_frame.camera.width(),
+            height: sink_frame.camera.height(),
+            samples,
+            bytes,
+        }
+    }
+}
+
+/// Converts an 8-bit value to a byte.
+pub(super) fn to_byte(value: u16) -> u8 {
+    u8::try_from(value).expect("it has 8 bits")
 }

@@ -3,7 +3,5 @@
 //! decide differently.
 
 mod array;
-mod tail;
-mod window;
 
 pub(crate) use array::PipelinedCore;

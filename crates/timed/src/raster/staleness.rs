@@ -4,7 +4,7 @@
 
 use std::collections::VecDeque;
 
-use crate::delivery::NEVER;
+use crate::sink::NEVER;
 
 /// The edges at which the first words of rows of regions are stored.
 #[derive(Debug)]

@@ -2,7 +2,5 @@
 //! A serial array, by `docs/serial.md`.
 
 mod array;
-mod intake;
-mod slot;
 
 pub(crate) use array::SerialCore;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Opens input files, and reads small ones as a whole.
+//! Opens input files, and reads small ones as a whole. A reader that fails at a limit. Files
+//! that may be gzipped.
 
+use crate::reading::size_text::size_text;
+use flate2::bufread::MultiGzDecoder;
 use std::fs::File;
-use std::io::{self, Read, Seek};
+use std::io::{self, BufRead, BufReader, Read, Seek};
 use std::path::Path;
-
-use crate::reading::LimitedReader;
 
 /// The largest size of a settings file in bytes; a typical one has a few KiB.
 pub const SETTINGS_LIMIT: u64 = 1 << 20;
@@ -80,6 +81,64 @@ fn text_of(bytes: Vec<u8>) -> io::Result<String> {
     })
 }
 
+/// A reader that fails with [`io::ErrorKind::FileTooLarge`] if its source has more bytes than the
+/// limit. [`Read::take`] would instead end the document at the limit, as if it were complete.
+#[derive(Debug)]
+pub struct LimitedReader<R> {
+    source: R,
+    limit: u64,
+    remaining: u64,
+}
+
+impl<R: Read> LimitedReader<R> {
+    /// Makes a reader of at most `limit` bytes.
+    pub fn new(source: R, limit: u64) -> Self {
+        Self { source, limit, remaining: limit }
+    }
+}
+
+impl<R: Read> Read for LimitedReader<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        if buffer.is_empty() {
+            return Ok(0);
+        }
+        if self.remaining == 0 {
+            // The source may end exactly at the limit.
+            return match self.source.read(&mut [0])? {
+                0 => Ok(0),
+                _ => Err(self.too_large()),
+            };
+        }
+        let allowed = buffer.len().min(usize::try_from(self.remaining).unwrap_or(usize::MAX));
+        let count = self.source.read(&mut buffer[..allowed])?;
+        self.remaining -= count as u64;
+        Ok(count)
+    }
+}
+
+impl<R> LimitedReader<R> {
+    fn too_large(&self) -> io::Error {
+        let message = format!("it is larger than {}, which is the limit", size_text(self.limit));
+        io::Error::new(io::ErrorKind::FileTooLarge, message)
+    }
+}
+
+/// The first bytes of a gzipped file.
+pub const GZIP_MAGIC: [u8; 2] = [0x1F, 0x8B];
+
+/// Returns the content of a file, unpacked if it is gzipped. The content may be much larger than the
+/// file, so the caller limits it.
+///
+/// # Errors
+/// Fails if the first bytes cannot be read.
+pub fn unpacked(input: impl Read + Send + 'static) -> io::Result<Box<dyn BufRead + Send>> {
+    let mut input = BufReader::new(input);
+    if input.fill_buf()?.starts_with(&GZIP_MAGIC) {
+        return Ok(Box::new(BufReader::new(MultiGzDecoder::new(input))));
+    }
+    Ok(Box::new(input))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -120,5 +179,17 @@ mod tests {
         let error = read_text(&path, 8).unwrap_err();
         assert_eq!(error.to_string(), "it is not text in UTF-8, from byte 3 on");
         assert_eq!(read_bytes(&path, 8).unwrap(), b"abc\xFF");
+    }
+
+    fn read(length: usize, limit: u64) -> io::Result<usize> {
+        let source = vec![1; length];
+        LimitedReader::new(source.as_slice(), limit).read_to_end(&mut Vec::new())
+    }
+
+    #[test]
+    fn a_source_beyond_the_limit_is_an_error_and_does_not_end_early() {
+        assert_eq!(read(4, 5).unwrap(), 4);
+        assert_eq!(read(5, 5).unwrap(), 5);
+        assert_eq!(read(6, 5).unwrap_err().kind(), io::ErrorKind::FileTooLarge);
     }
 }

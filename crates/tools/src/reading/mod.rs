@@ -16,13 +16,12 @@
 
 mod file;
 mod foreign_format;
-mod limited_reader;
-mod packed;
 mod size_text;
 mod table;
 
-pub use file::{SETTINGS_LIMIT, open_file, read_bytes, read_settings, read_text, settings_from};
+pub use file::{
+    GZIP_MAGIC, LimitedReader, SETTINGS_LIMIT, open_file, read_bytes, read_settings, read_text,
+    settings_from, unpacked,
+};
 pub use foreign_format::foreign_format;
-pub use limited_reader::LimitedReader;
-pub use packed::{GZIP_MAGIC, unpacked};
 pub use table::{RECORD_LIMIT, TableReader, TableRecords, table_reader};

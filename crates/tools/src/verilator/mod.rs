@@ -6,24 +6,22 @@
 //! its own files, with two compilers in parallel.
 
 mod compiler;
-mod makefile;
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::staging::ScratchFolder;
 
+use super::yosys::{self, PortBits};
 use crate::cache::Cache;
 use crate::cache_key::CacheKey;
 use crate::error::ToolError;
 use crate::invocation::Invocation;
-use crate::port_widths::{self, PortBits};
 use crate::source_files::{self, Source};
 use crate::tool::Tool;
 use crate::toolchain::Toolchain;
 pub use compiler::OptimizationLevel;
-use compiler::{EXECUTABLE, LIMIT, MAIN, ModelCompiler, tools_key};
-use makefile::MakefileLists;
+use compiler::{EXECUTABLE, LIMIT, MAIN, MakefileLists, ModelCompiler, tools_key};
 
 const WAIVERS: &str = "waivers.vlt";
 
@@ -186,7 +184,7 @@ fn build_in(
     toolchain.run_checked(&invocation)?;
     let header = dir.join(format!("{}.h", job.prefix()));
     let header = fs::read_to_string(&header).map_err(ToolError::io("read", &header))?;
-    port_widths::check_header(&job.top, &header, &job.port_bits)?;
+    yosys::check_header(&job.top, &header, &job.port_bits)?;
     source_files::write_file(dir, MAIN, job.cpp_main.as_bytes())?;
     let makefile = MakefileLists::read(dir, &job.prefix())?;
     let compiler = ModelCompiler::new(toolchain, &makefile.include, job.trace)?;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The sequences of damaged frames, for hardware that synchronizes to the start of a frame.
 
-use super::super::frame_delivery::BeatCount::{AllButOne, One, Some as Many};
-use super::super::frame_delivery::FrameDelivery::{
-    self, Long, Restarted, Short, Strays, Twice, Unmarked, Whole,
-};
 use super::super::sequence_end::SequenceEnd::{self, Drained, Flushing};
 use super::super::stimulus_pattern::VARYING_PATTERNS;
-use super::super::threshold_aimer::ThresholdAim;
 use super::FrameSequence;
+use crate::stimulus::frame_feed::BeatCount::{AllButOne, One, Some as Many};
+use crate::stimulus::frame_feed::FrameDelivery::{
+    self, Long, Restarted, Short, Strays, Twice, Unmarked, Whole,
+};
+use crate::stimulus::threshold_ranges::ThresholdAim;
 
 /// The first beat of a frame alone.
 const FIRST_BEAT: FrameDelivery = Short(AllButOne);

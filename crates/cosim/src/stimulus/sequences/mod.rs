@@ -7,12 +7,12 @@ mod pipelined;
 mod raster;
 mod serial;
 
-use super::external_store::StoreFault;
-use super::frame_delivery::FrameDelivery;
+use super::frame_feed::FrameDelivery;
 use super::port_zones::ClassChoice;
 use super::sequence_end::SequenceEnd;
+use super::sink::StoreFault;
 use super::stimulus_pattern::{StimulusPattern, Texture};
-use super::threshold_aimer::ThresholdAim;
+use super::threshold_ranges::ThresholdAim;
 use foveate_camera::FeatureKind;
 use foveate_design::{Design, Hardware};
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The sequences of a pipelined RPU, and of an array of them.
 
-use super::super::drain_timing::settling_clocks;
 use super::super::sequence_end::SequenceEnd;
 use super::super::stimulus_pattern::StimulusPattern::*;
-use super::super::threshold_aimer::ThresholdAim;
 use super::{CHECKERBOARD, FrameSequence, mean_sequences_around_reset};
+use crate::stimulus::model_driver::settling_clocks;
+use crate::stimulus::threshold_ranges::ThresholdAim;
 use foveate_design::PipelinedDesign;
 
 /// Returns all sequences, the most telling first.

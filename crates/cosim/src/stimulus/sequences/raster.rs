@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The sequences of a raster core.
 
-use super::super::external_store::StoreFault;
 use super::super::sequence_end::SequenceEnd;
 use super::super::stimulus_pattern::StimulusPattern::*;
-use super::super::threshold_aimer::ThresholdAim;
 use super::{CHECKERBOARD, FrameSequence, mean_sequences_around_reset};
+use crate::stimulus::sink::StoreFault;
+use crate::stimulus::threshold_ranges::ThresholdAim;
 use foveate_design::{RasterDesign, RasterTiming};
 
 /// Returns all sequences, the most telling first. Sequences that end with a reset within a frame

@@ -4,8 +4,8 @@
 use super::super::sequence_end::SequenceEnd;
 use super::super::stimulus_pattern::StimulusPattern::{self, *};
 use super::super::stimulus_pattern::Texture as TextureKind;
-use super::super::threshold_aimer::ThresholdAim;
 use super::{CHECKERBOARD, FrameSequence, mean_sequences_around_reset};
+use crate::stimulus::threshold_ranges::ThresholdAim;
 use foveate_design::{SerialDesign, SerialPhase, SerialTiming};
 
 const ROWS: StimulusPattern = Texture(TextureKind::Rows(2));

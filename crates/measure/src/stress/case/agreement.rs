@@ -5,9 +5,8 @@ use foveate_design::Design;
 use foveate_pixels::{Scene, SceneParameters};
 use rayon::prelude::*;
 
-use crate::stress::designs::{design_matrix, designs_with_means};
+use crate::stress::designs::{RandomNumbers, design_matrix, designs_with_means};
 use crate::stress::model_comparison::{AgreementTally, compare_models};
-use crate::stress::test_frames::RandomNumbers;
 use crate::stress::{CaseRow, RunDepth};
 
 fn agreement_row(case: &'static str, designs: String, tally: AgreementTally) -> CaseRow {
@@ -125,7 +124,7 @@ fn random_frames(
         let current = RandomNumbers::new(t).frame(size, bits);
         let previous = RandomNumbers::new(t.saturating_sub(1)).frame(size, bits);
         let repeats = t % 2 == 1;
-        crate::stress::test_frames::frame_from_fn(size, bits, |x, y| {
+        crate::stress::designs::frame_from_fn(size, bits, |x, y| {
             let source = if repeats && y < size.1 / 2 { &previous } else { &current };
             source.get(x, y).into()
         })

@@ -1,27 +1,23 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The cases, one file for each group, in the order of the table.
 
-mod accumulator_maxima;
 mod agreement;
-mod division;
-mod long_runs;
-mod means;
+mod arithmetic;
 mod references;
 mod summaries;
 mod thresholds;
-mod variance_cancellation;
 
 use crate::stress::{CaseRow, RunDepth};
 
 pub(crate) type CaseFunction = fn(RunDepth) -> Vec<CaseRow>;
 
 pub(crate) const ALL_CASES: &[CaseFunction] = &[
-    accumulator_maxima::largest_scores,
-    accumulator_maxima::largest_counts,
-    division::reciprocals,
-    means::halves,
+    arithmetic::largest_scores,
+    arithmetic::largest_counts,
+    arithmetic::reciprocals,
+    summaries::halves_of_means,
     summaries::halves,
-    variance_cancellation::large_mean_variance,
+    arithmetic::large_mean_variance,
     thresholds::on_below_above,
     references::slow_fade,
     references::flicker,
@@ -33,5 +29,5 @@ pub(crate) const ALL_CASES: &[CaseFunction] = &[
     agreement::depths,
     agreement::gaps_and_resets,
     agreement::means,
-    long_runs::long_runs,
+    references::long_runs,
 ];

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The means of blocks that irrelevant regions show: they are rounded correctly, and stay near the
-//! scene.
+//! The means of blocks that irrelevant regions show: they are rounded correctly, and stay near
+//! the scene. Means that end in exactly one half, or one pixel below or above it.
 
-use foveate_camera::{DenoiseFilter, FeatureKind, IrrelevantRendering, SUMMARY_BLOCKS};
+use crate::stress::designs::{RandomNumbers, config, design, frame_from_fn};
+use crate::stress::{CaseRow, RunDepth};
+use foveate_camera::{Decimal, DenoiseFilter, FeatureKind, IrrelevantRendering, SUMMARY_BLOCKS};
 use foveate_design::DesignConfig;
 use foveate_model::FunctionalCamera;
 use foveate_pixels::Frame;
-
-use crate::stress::designs::{config, design};
-use crate::stress::test_frames::{RandomNumbers, frame_from_fn};
-use crate::stress::{CaseRow, RunDepth};
 
 /// Returns a configuration in which regions whose pixels differ by one level are irrelevant, and
 /// show the means of blocks.
@@ -115,4 +113,49 @@ fn compare_with_light(lights: &[u32], (blocks, level): (u32, u32), errors: &mut 
         let outcome = camera.step(&flat).expect("it is a frame of the design");
         errors.compare(&outcome.rendered, light, level);
     }
+}
+
+/// Tests that for every sum around a half, the scores are those of the mean rounded up at one half.
+/// In exact rational arithmetic the mean is `floor((2 sum + n) / (2 n))`.
+pub(crate) fn halves_of_means(_: RunDepth) -> Vec<CaseRow> {
+    [2, 3, 5, 8, 16].map(around_halves).into()
+}
+
+fn around_halves(side: u32) -> CaseRow {
+    let mut config = config((side, side), side, 8, &[FeatureKind::Mad, FeatureKind::Segment]);
+    config.camera.denoise.filter = DenoiseFilter::None;
+    for spatial in &mut config.camera.spatial {
+        spatial.mean_fraction_bits = Some(0);
+    }
+    config.camera.spatial[1].level = Some(0);
+    config.camera.spatial[1].min_score = Some(Decimal::from_whole(0));
+    let design = design(&config);
+    let n = design.region_pixels();
+    let (mut wrong, mut tried, mut worst) = (0, 0, 0);
+    for base in [0, 1, 127, 253] {
+        for above in (n / 2).saturating_sub(2)..=(n / 2 + 2).min(n) {
+            // `above` pixels are one level higher, so the mean is base + above / n.
+            let region =
+                frame_from_fn((side, side), 8, |x, y| base + u32::from(y * side + x < above));
+            let mean = base + u32::from(2 * above >= n);
+            let pixels = || region.pixels().iter().map(|&pixel| u32::from(pixel));
+            let deviations: u64 = pixels().map(|pixel| u64::from(pixel.abs_diff(mean))).sum();
+            let [higher, lower] =
+                [pixels().filter(|&x| x > mean).count(), pixels().filter(|&x| x < mean).count()];
+            let expected = [deviations, higher.min(lower) as u64];
+            let mut camera = FunctionalCamera::new(&design);
+            let outcome = camera.step(&region).expect("the region is a frame of the design");
+            for (scores, expected) in outcome.scores.iter().zip(expected) {
+                let error = scores[0].abs_diff(expected);
+                (wrong, tried, worst) = (wrong + u64::from(error > 0), tried + 1, worst.max(error));
+            }
+        }
+    }
+    CaseRow::for_no_errors(
+        "means on one half",
+        format!("mad and segment, N {side}, f 0"),
+        "scores wrong",
+        (wrong, tried),
+        worst,
+    )
 }

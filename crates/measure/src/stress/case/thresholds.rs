@@ -7,8 +7,7 @@ use foveate_engine::Engine;
 use foveate_model::FunctionalCamera;
 use foveate_pixels::Frame;
 
-use crate::stress::designs::{config, design, organization_for};
-use crate::stress::test_frames::RandomNumbers;
+use crate::stress::designs::{RandomNumbers, config, design, organization_for};
 use crate::stress::{CaseRow, RunDepth};
 
 /// Tests that a score votes if the minimum is equal to it and not if it is one higher, or higher by the
@@ -96,9 +95,14 @@ fn edge_levels(rounds: u64) -> CaseRow {
         let step = u32::try_from(step).expect("at most 255");
         // At a vertical step of brightness, |Gx| is four times its height in the two columns beside
         // it.
-        let frame = crate::stress::test_frames::frame_from_fn((SIDE, SIDE), 8, |x, _| {
-            if x < 4 { 0 } else { step }
-        });
+        let frame =
+            crate::stress::designs::frame_from_fn(
+                (SIDE, SIDE),
+                8,
+                |x, _| {
+                    if x < 4 { 0 } else { step }
+                },
+            );
         for level in [4 * step - 1, 4 * step, 4 * step + 1] {
             let mut config = config_without_filter(FeatureKind::Edge);
             config.camera.spatial[0].level = Some(level);
@@ -119,8 +123,8 @@ fn temporal_thresholds(rounds: u64) -> CaseRow {
         let changed = random.below(u64::from(SIDE * SIDE) + 1);
         let changed = u32::try_from(changed).expect("at most the pixels of a region");
         let difference = 1 + u32::try_from(random.below(200)).expect("below 200");
-        let base_frame = crate::stress::test_frames::frame_from_fn((SIDE, SIDE), 8, |_, _| 20);
-        let changed_frame = crate::stress::test_frames::frame_from_fn((SIDE, SIDE), 8, |x, y| {
+        let base_frame = crate::stress::designs::frame_from_fn((SIDE, SIDE), 8, |_, _| 20);
+        let changed_frame = crate::stress::designs::frame_from_fn((SIDE, SIDE), 8, |x, y| {
             if y * SIDE + x < changed { 20 + difference } else { 20 }
         });
         for level in [difference - 1, difference, difference + 1] {

@@ -15,8 +15,8 @@ use serde::{Deserialize, Deserializer};
 
 use crate::boxes::exclusions::BoxExclusions;
 use crate::boxes::image_name::comparison_name;
-use crate::boxes::labelled_box::ImageBoxes;
 use crate::boxes::limits::{self, MAX_BOXES};
+use crate::boxes::view::ImageBoxes;
 use crate::boxes::{BoxError, LabelledBox};
 use foveate_pixels::Rect;
 

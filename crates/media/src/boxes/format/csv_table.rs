@@ -9,8 +9,8 @@ use csv::{ReaderBuilder, Trim};
 
 use super::field::{error_in_line, parse_numbers, unreadable_record};
 use crate::boxes::image_name::comparison_name;
-use crate::boxes::labelled_box::ImageBoxes;
 use crate::boxes::limits::{self, MAX_BOXES};
+use crate::boxes::view::ImageBoxes;
 use crate::boxes::{BoxError, LabelledBox};
 use foveate_pixels::Rect;
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The encoder of packets of events, which are compressed with LZ4.
 
-use super::compression::lz4_frame;
-use super::event_packet::packet_of_events;
-use super::header::header_bytes;
-use super::stream_info::EVENT_STREAM;
+use super::event_packet::{lz4_frame, packet_of_events};
+use super::header::{EVENT_STREAM, header_bytes};
 use crate::events::{EventFileError, PixelEvent};
 
 /// The events of a packet, of which only the last may have less.

@@ -6,13 +6,11 @@
 //!
 //! Coordinates have 16 bits with a sign, and times 64, so they do not wrap.
 
-mod compression;
 mod encoder;
 mod event_packet;
 mod flat_table;
 mod header;
 mod reader;
-mod stream_info;
 
 pub(crate) use encoder::Aedat4Encoder;
 pub(crate) use header::HEADER_START;

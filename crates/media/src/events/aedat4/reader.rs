@@ -3,11 +3,9 @@
 
 use std::io::{self, BufRead, Read as _};
 
-use super::compression::MAX_PACKET_BYTES;
-use super::event_packet::{EVENTS_IDENTIFIER, EventQueue};
+use super::event_packet::{EVENTS_IDENTIFIER, EventQueue, MAX_PACKET_BYTES};
 use super::flat_table::FlatTable;
-use super::header::Aedat4Header;
-use super::stream_info::StreamInfo;
+use super::header::{Aedat4Header, StreamInfo};
 use crate::events::{EventFileError, PixelEvent};
 
 /// The bytes before a packet: the number of its stream, and its length.

@@ -3,8 +3,7 @@
 
 use super::evt2::Evt2Encoder;
 use super::evt3::Evt3Encoder;
-use super::header::header_text;
-use super::version::EvtVersion;
+use super::header::{EvtVersion, header_text};
 use crate::events::{EventFileError, PixelEvent};
 
 /// The longest pause between two events. A stream has a dozen bytes for each loop of its times, of which a pause

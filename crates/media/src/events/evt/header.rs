@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The header of a file: lines of text that begin with `%`.
+//! The header of a file: lines of text that begin with `%`. The versions of EVT.
 
-use std::io::{BufRead, Read as _};
-
-use super::version::EvtVersion;
-use crate::events::EventFileError;
 use crate::events::frame_size::check_frame_size;
+use crate::events::{EventFileError, EventFormat};
+use std::fmt;
+use std::io::{BufRead, Read as _};
 
 /// The first byte of every line, and so of a file.
 pub(crate) const HEADER_START: u8 = b'%';
@@ -127,6 +126,43 @@ fn size_of<'a>(sides: impl Iterator<Item = &'a str>) -> Option<(u32, u32)> {
     match sides.as_slice() {
         &[width, height] if width > 0 && height > 0 => Some((width, height)),
         _ => None,
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum EvtVersion {
+    Evt2,
+    Evt3,
+}
+
+impl EvtVersion {
+    /// Returns the format of a file with this version.
+    pub(crate) fn format(self) -> EventFormat {
+        match self {
+            Self::Evt2 => EventFormat::Evt2,
+            Self::Evt3 => EventFormat::Evt3,
+        }
+    }
+
+    /// Returns the version in the words of a header: `2.0` or `3.0`.
+    pub(crate) fn number(self) -> &'static str {
+        match self {
+            Self::Evt2 => "2.0",
+            Self::Evt3 => "3.0",
+        }
+    }
+
+    pub(crate) fn word_bytes(self) -> usize {
+        match self {
+            Self::Evt2 => 4,
+            Self::Evt3 => 2,
+        }
+    }
+}
+
+impl fmt::Display for EvtVersion {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.format().fmt(formatter)
     }
 }
 

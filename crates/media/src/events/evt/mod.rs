@@ -9,9 +9,7 @@ mod evt3;
 mod header;
 mod reader;
 mod time_base;
-mod version;
 
 pub(crate) use encoder::EvtEncoder;
-pub(crate) use header::HEADER_START;
+pub(crate) use header::{EvtVersion, HEADER_START};
 pub(crate) use reader::EvtReader;
-pub(crate) use version::EvtVersion;

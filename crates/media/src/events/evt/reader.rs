@@ -5,8 +5,7 @@ use std::io::{BufRead, ErrorKind};
 
 use super::evt2::Evt2Decoder;
 use super::evt3::Evt3Decoder;
-use super::header::EvtHeader;
-use super::version::EvtVersion;
+use super::header::{EvtHeader, EvtVersion};
 use crate::events::{EventFileError, PixelEvent};
 
 /// Reads the events of a file, in its order.

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The check of the codes of a block of 8x8 coefficients.
 
-use super::bits::BitReader;
+use super::bits::{BitReader, HuffmanTable};
 use super::frame::CodingProcess;
-use super::huffman::HuffmanTable;
 use crate::picture::damage::PictureFault;
 
 /// The coefficients that a scan sends, and the range of their bits.

@@ -3,7 +3,7 @@
 
 use super::setting::TimeOfDay;
 use crate::scenes::canvas::{Canvas, OPAQUE, ShapePainter, UNIT};
-use crate::scenes::noise::pick;
+use crate::scenes::patterns::pick;
 
 /// A lane of the road, on which cars follow each other without end.
 struct TrafficLane {

@@ -12,9 +12,9 @@ use foveate_camera::Camera;
 use super::super::cannot_write;
 use super::super::csv::CsvFile;
 use super::super::png_writers::PngWriters;
-use super::super::raw_image::RawImage;
 use super::super::sink::{FrameSink, SinkFrame};
 use crate::SimulatorError;
+use crate::output::png_writers::RawImage;
 
 pub(super) const FOLDER: &str = "images";
 

@@ -3,7 +3,6 @@
 //! quarter, half, or all, by size, speed and contrast, and its cost in bytes, over thresholds and
 //! region sizes.
 
-mod charts;
 mod class;
 mod contrast;
 mod count;
@@ -70,7 +69,7 @@ pub(crate) fn run(watcher: &StudyRunner<'_>) -> Result<StudyFindings, StudyError
     findings.further_tables =
         tables::track_table(&watched).map(|table| ("tracks", table)).into_iter().collect();
     findings.notes.extend(watched.iter().map(|clip| clip.annotator.note(&clip.name)));
-    for chart in charts::recall_charts(&keys, &results) {
+    for chart in tables::recall_charts(&keys, &results) {
         findings.add_chart(chart, &watched);
     }
     Ok(findings)
