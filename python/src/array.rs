@@ -66,7 +66,6 @@ pub(crate) fn untyped<'py>(
     Ok(array)
 }
 
-/// Refuses an array with masked values.
 fn refuse_masks(value: &Bound<'_, PyAny>) -> PyResult<()> {
     let masked = value.py().import("numpy.ma")?.getattr("MaskedArray")?;
     if !value.is_instance(&masked)? {
@@ -170,7 +169,6 @@ fn short(value: f64) -> String {
 pub(crate) struct Screen(pub(crate) Py<PyUntypedArray>);
 
 impl Screen {
-    /// Returns the pixels of a frame of a design.
     pub(crate) fn of(py: Python<'_>, design: &Design, pixels: FramePixels<'_>) -> Self {
         let size = [design.height() as usize, design.width() as usize];
         Self(match pixels {
@@ -301,7 +299,6 @@ pub(crate) fn action_code(action: RegionAction) -> u8 {
     }
 }
 
-/// Returns a score as arrays have it.
 pub(crate) fn signed_score(score: &u64) -> i64 {
     i64::try_from(*score).expect("scores are below 2^54")
 }

@@ -44,7 +44,6 @@ impl SizedEngine {
         Ok(())
     }
 
-    /// Returns the map of classes that was assigned last, if there was one.
     fn assigned_map(&self) -> Option<RegionClasses> {
         self.classes().filter(|classes| classes.maps_set > 0)
     }
@@ -70,7 +69,6 @@ pub(crate) type PickledMap = ((usize, usize), Vec<u8>, u64);
 pub(crate) const NO_SIZE: &str = "this camera has no size yet: it takes that of its first frame, so show it one, or give the size, \
                        frame={\"width\": 640, \"height\": 480}";
 
-/// The state of a camera.
 pub(crate) struct CameraState {
     /// The engine, which is kept after a reset for frames of the same size.
     pub(crate) sized_engine: Option<SizedEngine>,

@@ -317,7 +317,6 @@ impl ClipInputs {
         }
     }
 
-    /// Refuses inputs that are several clips.
     fn refuse_several(&self, options: &InputOptions) -> PyResult<()> {
         let Self::Paths(paths) = self else { return Ok(()) };
         match plan(paths, options).map_err(raise)? {

@@ -26,7 +26,6 @@ impl CoreSurroundings {
     /// The names of the options.
     pub(crate) const OPTIONS: [&'static str; 3] = ["clock_hz", "sink_rate", "sink_stalls"];
 
-    /// Returns the surroundings of these options.
     pub(crate) fn from_options(
         clock_hz: Option<ClockFrequency>,
         sink_rate: Option<SinkRate>,

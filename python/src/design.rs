@@ -78,7 +78,6 @@ impl Design {
         Ok(Self { inner: written.validate().map_err(raise)?, written })
     }
 
-    /// Returns the given configuration.
     pub(crate) fn config(&self) -> &DesignConfig {
         &self.written
     }
@@ -115,7 +114,6 @@ impl Design {
         self.inner.height()
     }
 
-    /// Bits per pixel.
     #[getter]
     fn pixel_bits(&self) -> u32 {
         self.inner.pixel_bits()

@@ -131,7 +131,6 @@ pub(crate) fn check_size((width, height): (usize, usize), own: (usize, usize)) -
     )))
 }
 
-/// Returns the design of a configuration for frames of this width and height.
 pub(crate) fn design_of_size(
     config: &DesignConfig,
     (width, height): (usize, usize),

@@ -396,7 +396,6 @@ pub(crate) struct FrameRecord {
     pub(crate) result: FrameOutcome,
     pub(crate) number: u64,
     pub(crate) time_us: u64,
-    /// True if the frame has no frame before it.
     pub(crate) is_first: bool,
     pub(crate) name: Option<String>,
     pub(crate) label: Option<String>,

@@ -11,7 +11,6 @@ use crate::error::{raise, value_error};
 use crate::options::input_options;
 use crate::work::{CancelFlag, at_once, interruptible};
 
-/// Returns a value as JSON, from which Python makes its own value.
 pub(crate) fn json(value: &impl serde::Serialize) -> PyResult<String> {
     serde_json::to_string(value).map_err(value_error)
 }

@@ -22,7 +22,6 @@ impl AreaConfig {
     }
 }
 
-/// Returns the sides of a polygon, each from one corner to the next.
 fn polygon_sides(corners: &[[u32; 2]]) -> impl Iterator<Item = [[u32; 2]; 2]> {
     let next = corners.iter().cycle().skip(1);
     corners.iter().zip(next).map(|(&from, &to)| [from, to])

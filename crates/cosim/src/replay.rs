@@ -55,7 +55,6 @@ struct ReplayReadme<'a> {
     fingerprint: &'a str,
 }
 
-/// The subject of a replay, for its README.
 pub(crate) struct ReplaySubject<'a> {
     pub(crate) mismatch: &'a Mismatch,
     pub(crate) fingerprint: &'a str,

@@ -129,7 +129,6 @@ pub(crate) trait OrganizationRules {
     fn unit(&self) -> ArrayUnit;
     /// Returns the design that module `rpu` belongs to.
     fn lone_unit(&self) -> Design;
-    /// Returns the timing of the design.
     fn timing(&self) -> DesignTiming;
     /// Returns the interface of module `rpu`. Where the RPU is not a part of the array, it is that
     /// of an array with one unit.
@@ -191,7 +190,6 @@ fn supports_feature(organization: Organization, kind: FeatureKind) -> bool {
     }
 }
 
-/// Returns true if the organization has the filter.
 fn supports_filter(organization: Organization, filter: DenoiseFilter) -> bool {
     use DenoiseFilter::{Binomial3x3, Median3x3, None, Switching3x3};
     match (organization, filter) {
@@ -215,7 +213,6 @@ fn supports_rendering(organization: Organization, irrelevant: IrrelevantRenderin
     }
 }
 
-/// Returns true if the organization can have thresholds from this source.
 fn supports_thresholds(organization: Organization, thresholds: ThresholdSource) -> bool {
     use ThresholdSource::{Constant, Runtime};
     match (organization, thresholds) {

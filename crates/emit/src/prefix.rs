@@ -9,7 +9,6 @@ use std::collections::BTreeSet;
 use crate::{EmitError, LEAVES, SourceFile, Top};
 use foveate_design::Design;
 
-/// The largest number of characters of a prefix.
 const MAX_CHARACTERS: usize = 32;
 /// The word that requests the prefix made from the fingerprint.
 const AUTO_WORD: &str = "auto";
@@ -236,7 +235,6 @@ impl Prefix {
     }
 }
 
-/// Returns the path of the file of a module.
 pub(crate) fn module_path(module: &str) -> String {
     format!("rtl/{module}.v")
 }

@@ -76,7 +76,6 @@ impl Engine {
     }
 }
 
-/// Checks that the pixels are frames of the camera.
 fn check_frames<'a, T: PixelLane>(
     camera: &Camera,
     frames: &[&'a [T]],

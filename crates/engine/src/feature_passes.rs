@@ -16,7 +16,6 @@ pub(crate) struct FeaturePasses<T: PixelLane> {
     pub(crate) corner: Option<T>,
     /// True if a feature uses windows.
     pub(crate) has_windows: bool,
-    /// True if a feature needs the sum of the pixels.
     pub(crate) needs_sums: bool,
     /// True if a feature needs the sum of the squares of the pixels.
     pub(crate) needs_squares: bool,

@@ -92,7 +92,6 @@ impl<'a> RegionResults<'a> {
 }
 
 impl RegionResults<'_> {
-    /// Copies the results of the same number of other regions.
     #[inline(always)]
     pub(crate) fn copy_from(&mut self, other: &RegionResults<'_>) {
         self.srs.copy_from_slice(other.srs);

@@ -26,7 +26,6 @@ impl<'a, T> BorrowedFrame<'a, T> {
 }
 
 impl<'a, T: PixelLane> BorrowedFrame<'a, T> {
-    /// Checks that the pixels are a frame of the camera.
     pub(crate) fn new_checked(
         camera: &Camera,
         values: &'a [T],

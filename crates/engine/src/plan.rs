@@ -174,7 +174,6 @@ impl<T: PixelLane> CameraPlan<T> {
         u32::try_from(self.side).expect("a region is at most 64 pixels wide")
     }
 
-    /// Returns the number of pixels of a region.
     pub(crate) fn region_pixels(&self) -> u32 {
         self.side_pixels().pow(2)
     }

@@ -68,7 +68,6 @@ impl SearchPolicy {
         }
     }
 
-    /// Returns the step for the next frames.
     pub(crate) fn next_step(&mut self, frames: usize) -> SearchStep {
         match self.phase {
             SearchPhase::Off => SearchStep::Rest,

@@ -341,7 +341,6 @@ pub struct BatchScreens<T> {
 #[derive(Clone, Debug)]
 pub(crate) struct KeptScreen<T> {
     pub(crate) pixels: Vec<T>,
-    /// The regions that are black.
     pub(crate) black_regions: Vec<bool>,
 }
 

@@ -40,7 +40,6 @@ pub(crate) struct EngineState<'a, T> {
 }
 
 impl<T: PixelLane> StateCopy<T> {
-    /// Copies the state of the engine.
     pub(crate) fn copy_from(&mut self, plan: &CameraPlan<T>, known: &EngineState<'_, T>) {
         let reference = match plan.reference {
             ReferencePolicy::Previous => known.denoised,

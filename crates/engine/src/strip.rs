@@ -20,7 +20,6 @@ use crate::plan::CameraPlan;
 use crate::working_memory::WorkingMemory;
 use foveate_pixels::{lanes::PixelLane, lanes::VectorTask};
 
-/// The work that was skipped.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct SkippedWork {
     /// The number of regions whose results cannot have changed.

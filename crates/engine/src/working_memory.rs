@@ -72,7 +72,6 @@ impl<T: Copy + Default> BlockRow<T> {
     }
 }
 
-/// A denoised row.
 #[derive(Clone, Debug)]
 pub(crate) struct DenoisedRow<T: PixelLane> {
     /// The row of the current frame and the run of blocks that are in `pixels`.
@@ -117,7 +116,6 @@ pub(crate) struct RegionSums {
     pub(crate) segment: [Vec<u64>; 2],
 }
 
-/// The working memory of one worker.
 #[derive(Clone, Debug)]
 pub(crate) struct WorkingMemory<T: PixelLane> {
     /// The low, mid and high values of the columns, for each row of a batch.

@@ -46,7 +46,6 @@ pub(crate) struct MeasuredTiming {
     pub(crate) clocks_per_frame: u64,
 }
 
-/// The areas as they are measured.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct MeasuredAreas {
     pub(crate) unit: Area,

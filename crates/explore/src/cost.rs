@@ -31,7 +31,6 @@ pub struct DesignArea {
     pub logic_levels: u32,
 }
 
-/// The result of synthesizing a design.
 #[derive(Clone, Debug)]
 pub(crate) struct SynthesisResult {
     pub(crate) silicon: DesignArea,

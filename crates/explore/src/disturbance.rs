@@ -104,7 +104,6 @@ pub(crate) struct FrameDisturbance {
     pub(crate) shown: Option<ByteFrame>,
 }
 
-/// A disturbance of one clip, which is given by its number.
 pub(crate) struct ClipDisturbance {
     disturbance: Option<Disturbance>,
     clip: u64,
@@ -116,7 +115,6 @@ impl ClipDisturbance {
         Self { disturbance, clip: clip as u64, first: None }
     }
 
-    /// Disturbs the next frame.
     pub(crate) fn disturb(
         &mut self,
         frame: &ByteFrame,

@@ -290,7 +290,6 @@ impl<'a> ExplorationWork<'a> {
         Ok(Self { footage, points, refused, cameras, camera_of_point })
     }
 
-    /// Returns the points that have one of these cameras.
     pub(crate) fn points_of_cameras(&self, cameras: &Range<usize>) -> Vec<&DesignPoint> {
         let points = self.points.iter().zip(&self.camera_of_point);
         let points = points.filter(|(_, camera)| cameras.contains(camera));

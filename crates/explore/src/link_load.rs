@@ -49,7 +49,6 @@ impl LoadFigures {
         }
     }
 
-    /// Returns the figures over the clips of both.
     fn with_clips_of(self, other: Self) -> Self {
         let both = |one: Option<u64>, two: Option<u64>, join: fn(u64, u64) -> u64| {
             one.zip(two).map(|(one, two)| join(one, two))

@@ -137,7 +137,6 @@ pub(crate) struct SynthesizedPoints {
     pub(crate) problems: Vec<String>,
 }
 
-/// The synthesis of the points of an exploration.
 pub(crate) struct PointSynthesis<'a> {
     synthesizer: &'a Synthesizer,
     process: Option<ProcessRequest<'a>>,

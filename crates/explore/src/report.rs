@@ -49,7 +49,6 @@ struct AboutSection<'a> {
     findings: Vec<String>,
 }
 
-/// The other sections.
 #[derive(Template)]
 #[template(path = "main.html")]
 struct MainSections<'a> {

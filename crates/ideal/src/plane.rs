@@ -103,9 +103,7 @@ pub(crate) struct RegionGrid {
     pub(crate) height: usize,
     /// The side of a region in pixels.
     pub(crate) side: usize,
-    /// The number of columns of regions.
     pub(crate) columns: usize,
-    /// The number of rows of regions.
     pub(crate) rows: usize,
 }
 

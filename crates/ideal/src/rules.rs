@@ -83,7 +83,6 @@ impl DecisionRules {
         changed >= self.of_class(class).min_count
     }
 
-    /// Returns the level of the summaries of a region.
     pub(crate) fn summary_level(&self, class: RegionClass) -> f64 {
         match class {
             RegionClass::Off => self.off_level,

@@ -9,7 +9,6 @@ use crate::plane::PaddedPlane;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FrameView<'a> {
     pub(crate) grid: &'a RegionGrid,
-    /// The denoised frame.
     pub(crate) denoised: &'a PaddedPlane,
     /// The references of the frame's regions.
     pub(crate) references: &'a RegionReferences,
@@ -19,6 +18,5 @@ pub(crate) struct FrameView<'a> {
 pub(crate) struct RegionReferences {
     /// The pixels of the references at the positions of their regions; the border is not filled.
     pub(crate) plane: PaddedPlane,
-    /// True if each region has a valid reference.
     pub(crate) valid: Vec<bool>,
 }

@@ -126,7 +126,6 @@ fn tensor(array: NpyArray, kind: i32) -> TensorProto {
     }
 }
 
-/// Writes all outputs to files.
 fn write(
     staging: &StagedFolder,
     outputs: Vec<(String, TensorProto)>,

@@ -12,7 +12,6 @@ pub(crate) trait FrameConsumer {
     /// from which each of its frames starts.
     fn begin_clip(&mut self, clip: &str, black: Option<&[f32]>);
 
-    /// Takes the next frame of the clip.
     fn take_frame(&mut self, seen: ReceivedFrame<'_>) -> Result<(), InferenceError>;
 
     /// Ends the clip, with the reason for missing frames if some are missing.
@@ -25,7 +24,6 @@ pub(crate) struct ClipPlayback<'a> {
     pub(crate) clips: &'a RunClips,
     /// The distance between the frames of a clip that the network sees; 1 if it sees all.
     pub(crate) every: NonZeroU32,
-    /// The monitor of the run, over all clips.
     pub(crate) monitor: RunMonitor<'a>,
 }
 

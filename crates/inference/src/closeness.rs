@@ -17,7 +17,6 @@ struct OutputVariation {
     squares: f64,
     /// The number of frames of this clip.
     frames: u64,
-    /// The variation of the clips before this one.
     earlier_clips: f64,
 }
 

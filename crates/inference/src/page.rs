@@ -36,7 +36,6 @@ struct AboutSection {
     shots: bool,
 }
 
-/// The other sections.
 #[derive(Template)]
 #[template(path = "main.html")]
 struct MainSections<'a> {

@@ -215,7 +215,6 @@ fn detection_count(frame: &FrameFigures, of: fn(&DetectionCounts) -> u64) -> Fig
     found.map_or(Real(None, 0), |found| Count(of(&found)))
 }
 
-/// The columns of the table of detections, for the files.
 pub(crate) const DETECTIONS: &[FigureColumn<DetectionRow>] = &[
     file_column("clip", |it| Text(it.clip.clone())),
     file_column("frame", |it| Count(it.frame)),
@@ -295,7 +294,6 @@ pub(crate) fn detection_table(rows: &[DetectionRow]) -> Table {
     table(None, DETECTIONS, (0..).zip(rows)).with_columns_of(example)
 }
 
-/// Returns the cells of a row that are in files.
 fn file_cells<T>(
     columns: &[FigureColumn<T>],
     row: &T,

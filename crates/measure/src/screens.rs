@@ -224,7 +224,6 @@ impl<T: PixelSample> ColumnSums<T> {
         [sum(0) + sum(1) - 2 * sum(3), sum(0) + sum(2) - 2 * sum(4)]
     }
 
-    /// Writes one of the sums over blocks.
     fn sum_blocks(&self, which: usize, blocks: &mut [f64]) {
         match which.checked_sub(3) {
             None => {

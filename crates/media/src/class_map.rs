@@ -82,7 +82,6 @@ mod tests {
         CameraConfig { zones: Some(zones), ..CameraConfig::default() }
     }
 
-    /// Reads the map of a configuration in a folder.
     fn read(config: &mut CameraConfig, folder: &Path) -> Result<(), FootageError> {
         read_class_map(config, Some(&folder.join("camera.toml")), &[])
     }

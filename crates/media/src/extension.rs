@@ -11,7 +11,6 @@ const VIDEO_EXTENSIONS: [&str; 17] = [
     "mp4", "m4v", "mov", "avi", "mkv", "webm", "mpg", "mpeg", "ts", "mts", "m2ts", "wmv", "flv",
     "ogv", "3gp", "gif", "y4m",
 ];
-/// The types of images that are not read, with their extensions.
 const UNREAD_IMAGE_TYPES: [(&str, &[&str]); 14] = [
     ("WebP", &["webp"]),
     ("TIFF", &["tif", "tiff"]),
@@ -51,7 +50,6 @@ pub(crate) fn is_video_name(path: &Path) -> bool {
     extension_in(path, &VIDEO_EXTENSIONS)
 }
 
-/// Returns the name of an image type that is not read.
 pub(crate) fn unread_image_type_by_name(path: &Path) -> Option<&'static str> {
     let found = UNREAD_IMAGE_TYPES.iter().find(|(_, extensions)| extension_in(path, extensions));
     found.map(|(name, _)| *name)

@@ -46,7 +46,6 @@ impl FrameTurn {
         Some(Self { is_transposed, is_reversed: (column < 0, row < 0) })
     }
 
-    /// Returns the frame after the turn.
     pub(crate) fn turned(self, frame: ByteFrame) -> Result<ByteFrame, FrameError> {
         if self == Self::default() {
             return Ok(frame);

@@ -40,7 +40,6 @@ use crate::{
     FootageError, FrameRate, InputOptions, InputWarnings, LumaRange, Orientation, SourceFrame,
 };
 
-/// The medium from which a video is read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum VideoMedium {
     File(PathBuf),

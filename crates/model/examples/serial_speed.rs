@@ -9,7 +9,6 @@ use std::time::{Duration, Instant};
 use foveate_design::{Design, DesignConfig};
 use foveate_model::{CoreInput, SerialRcm, ThresholdInputs};
 
-/// Duration of each measurement.
 const MEASUREMENT_TIME: Duration = Duration::from_secs(3);
 
 fn design(feed: &str) -> Design {

@@ -16,7 +16,6 @@ use foveate_design::{CLASS_BITS, CLASSES_PER_WORD, Design};
 use crate::ClassMapInputs;
 use crate::conversions::index;
 
-/// Number of banks of a memory.
 const BANKS: usize = 2;
 
 /// The memory of classes of a core. A new one is in the state before the first write.

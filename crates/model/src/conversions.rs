@@ -18,7 +18,6 @@ pub(crate) fn bool_as_count(hit: bool) -> u64 {
     u64::from(hit)
 }
 
-/// Counts the items of an iterator that are true.
 pub(crate) fn count_true(hits: impl Iterator<Item = bool>) -> u32 {
     hits.map(u32::from).sum()
 }

@@ -280,7 +280,6 @@ impl FunctionalCamera {
 pub(crate) struct Screen(Frame);
 
 impl Screen {
-    /// Makes a black screen.
     pub(crate) fn black(camera: &Camera) -> Self {
         Self(black_padded_frame(camera))
     }

@@ -71,7 +71,6 @@ impl RegionScorer {
         self.scored.inner_pixels(self.side)
     }
 
-    /// Returns the scored pixels of the region, row by row.
     pub(crate) fn pixel_rows(&self) -> Vec<&[u16]> {
         self.scored.inner_rows(self.side).collect()
     }
@@ -169,12 +168,10 @@ impl RegionView for ScoredRegion<'_> {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PixelSquare {
     side: usize,
-    /// The square with its guard.
     guarded: Vec<u16>,
 }
 
 impl PixelSquare {
-    /// Makes a black square.
     pub(crate) fn black(side: usize) -> Self {
         Self { side, guarded: vec![0; (side + 2) * (side + 2)] }
     }

@@ -74,7 +74,6 @@ impl RegionReferences {
         self.valid[index(region)].then_some(&self.frame)
     }
 
-    /// Updates the reference of a region for the next frame, by the action of this frame.
     pub(crate) fn update(
         &mut self,
         camera: &Camera,

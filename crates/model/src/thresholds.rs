@@ -74,7 +74,6 @@ impl<'a> ClassThresholdInputs<'a> {
         }
     }
 
-    /// Returns the level of the summaries of a class.
     pub(crate) fn summary_level(self, class: RegionClass) -> u32 {
         match class {
             RegionClass::Off => self.off_summary_level,
@@ -104,7 +103,6 @@ impl ThresholdConstants {
         })
     }
 
-    /// Returns the constants as the thresholds of all classes.
     pub(crate) fn by_class(&self) -> ClassThresholdInputs<'_> {
         ClassThresholdInputs {
             own: &self.own,

@@ -9,7 +9,6 @@ use crate::mask::Mask;
 use crate::operator::{Operator, ProductKind};
 use std::sync::Arc;
 
-/// The largest number of values of a tensor.
 const MAX_TENSOR_VALUES: usize = 1 << 28;
 /// The largest number of values of all tensors together, which a run keeps in memory.
 const MAX_KEPT_VALUES: usize = 1 << 30;

@@ -118,7 +118,6 @@ pub(crate) fn for_each_run(form: &TensorForm, at: &Mask, mut visit: impl FnMut(R
     }
 }
 
-/// The largest number of axes of a tensor.
 pub(crate) const MAX_AXES: usize = 8;
 
 /// The number of elements of a shape, or `None` if it exceeds `usize`.
@@ -193,7 +192,6 @@ impl TensorForm {
         self.shape.iter().product()
     }
 
-    /// The axes that are positions.
     pub(crate) fn position_axes(&self) -> Range<usize> {
         self.positions.clone()
     }

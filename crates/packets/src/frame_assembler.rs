@@ -15,7 +15,6 @@ pub struct FrameAssembler {
     open: Option<ReceivedFrame>,
     /// The number of the frame that began last.
     last: Option<u32>,
-    /// The number of the last FRAME, if that FRAME was late.
     late: Option<u32>,
     losses: Vec<StreamLoss>,
 }

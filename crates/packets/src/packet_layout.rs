@@ -159,7 +159,6 @@ impl PacketLayout {
         if self.info.pixel_bits <= 8 { 1 } else { 2 }
     }
 
-    /// Returns the largest pixel value.
     pub(crate) fn pixel_max(&self) -> u16 {
         u16::MAX >> 16u8.saturating_sub(self.info.pixel_bits)
     }

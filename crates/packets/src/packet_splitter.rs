@@ -15,9 +15,7 @@ const REPORTED_BYTES: u64 = 1 << 20;
 pub enum StreamItem {
     /// A packet.
     Packet {
-        /// The number of its frame.
         frame: u32,
-        /// The packet.
         packet: Packet,
     },
     /// Bytes that belong to no packet.

@@ -15,7 +15,6 @@ pub enum StreamLoss {
     },
     /// The stream begins in the middle of a run, so the screen before it is unknown.
     Start {
-        /// The number of the first frame.
         frame: u32,
     },
     /// Frames without any packet.
@@ -27,12 +26,10 @@ pub enum StreamLoss {
     },
     /// The FRAME of a frame is missing, and with it the time: the frame is not written.
     Frame {
-        /// The number of the frame.
         frame: u32,
     },
     /// The decisions of a row of regions are missing.
     Row {
-        /// The number of the frame.
         frame: u32,
         /// The row of regions.
         row: u32,
@@ -41,21 +38,18 @@ pub enum StreamLoss {
     },
     /// The scores of a row of regions are missing.
     Scores {
-        /// The number of the frame.
         frame: u32,
         /// The row of regions.
         row: u32,
     },
     /// The displacements of a row of regions are missing.
     Flow {
-        /// The number of the frame.
         frame: u32,
         /// The row of regions.
         row: u32,
     },
     /// The pixels or means of a region are missing.
     Region {
-        /// The number of the frame.
         frame: u32,
         /// The row of regions.
         row: u32,
@@ -66,19 +60,15 @@ pub enum StreamLoss {
     },
     /// The END of a frame is missing.
     End {
-        /// The number of the frame.
         frame: u32,
     },
     /// Packets contradict others or come too late.
     Misplaced {
-        /// The number of the frame in these packets.
         frame: u32,
-        /// The number of packets.
         count: u32,
     },
     /// The time of a frame is before that of the previous frame, or too far after it.
     Time {
-        /// The number of the frame.
         frame: u32,
     },
     /// A FRAME comes from another camera or has another format. It is ignored with all packets up

@@ -62,7 +62,6 @@ impl PacketRecording<'_> {
         Ok(decoded)
     }
 
-    /// Writes all files.
     fn write(
         self,
         folder: &Path,

@@ -33,7 +33,6 @@ pub struct TrafficMeter {
     has_forwarding: bool,
     /// The frames whose transactions may still come, the oldest first.
     frames: VecDeque<FrameTraffic>,
-    /// The next frame.
     frame: u64,
     /// The number of regions that wait.
     waiting: i64,

@@ -44,7 +44,6 @@ pub struct RegionRun {
 }
 
 impl RegionRun {
-    /// Makes a run of one region.
     pub(crate) fn single(clock: u64, region: u32) -> Self {
         Self { clock, region, regions: 1, region_step: 1, clock_step: 0 }
     }

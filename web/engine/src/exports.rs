@@ -38,7 +38,6 @@ thread_local! {
 }
 
 impl PageState {
-    /// Makes a text the answer.
     fn set_answer(&mut self, text: String) {
         self.answer = text.into_bytes();
         self.answer_place = address_and_length(&self.answer);
@@ -85,7 +84,6 @@ impl PageState {
         self.answer_number(found)
     }
 
-    /// Makes pixels of a camera the answer.
     fn answer_pixels(
         &mut self,
         handle: u32,

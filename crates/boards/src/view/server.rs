@@ -318,7 +318,6 @@ pub(crate) struct HttpRequest {
     pub(crate) body: Vec<u8>,
 }
 
-/// An answer to a request.
 #[derive(Debug)]
 pub(crate) struct HttpAnswer {
     pub(crate) status: &'static str,

@@ -59,7 +59,6 @@ struct FrameFigures {
     shown_ms: u64,
 }
 
-/// A register with the value of the last read.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct RegisterReading {
     pub(crate) address: u32,

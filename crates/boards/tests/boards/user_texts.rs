@@ -183,7 +183,6 @@ fn assert_differs_in_comments_only(
     }
 }
 
-/// A text at a place of a file.
 type TextAtPlace = (Vec<PathStep>, String);
 
 /// Returns every text at every place of a file.

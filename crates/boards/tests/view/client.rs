@@ -81,7 +81,6 @@ pub(crate) fn write(link: &str, address: u32, value: u64) -> HttpResponse {
     )
 }
 
-/// The data that a page has.
 pub(crate) struct PageData {
     pub(crate) state: Value,
     /// A byte per region, and then a byte per pixel; empty if no frame is new.

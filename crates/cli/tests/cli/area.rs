@@ -24,7 +24,6 @@ const DESIGN: [&str; 10] = [
     "denoise.filter='none'",
 ];
 
-/// The number of cells by type.
 type Cells = BTreeMap<String, u64>;
 
 /// Runs a command in the folder of a core, and returns its output.

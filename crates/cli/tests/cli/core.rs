@@ -21,7 +21,6 @@ fn replay(core: &Path, args: &[&str]) -> (Option<i32>, String) {
     (output.status.code(), text + &String::from_utf8_lossy(&output.stderr))
 }
 
-/// Writes a core.
 fn core(folder: &Path, settings: &[&str]) {
     // Some tests edit the core, and edited files are not replaced.
     let _ = fs::remove_dir_all(folder.join("core"));

@@ -89,7 +89,6 @@ fn the_crates_of_the_camera_cannot_see_hardware() {
     assert!(!reached.contains("design"), "{reached:?}");
 }
 
-/// Returns the files of a folder of sources, with those of its folders.
 fn sources(folder: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
     let files = entries.flat_map(|path| if path.is_dir() { sources(&path) } else { vec![path] });

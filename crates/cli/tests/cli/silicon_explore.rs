@@ -12,7 +12,6 @@ use crate::common::{expect_failure, run_in, run_successfully};
 /// A space of three organizations: RPUs and lanes have an energy, and a core of `raster` has none.
 const SPACE: &str = "preset = 'bare'\nmethod = 'each'\nclock_mhz = 900\n[design]\nregion.size = 4\n\
      [vary]\nhardware.organization = ['serial', 'raster']\n";
-/// The space and the clip.
 const INPUTS: [&str; 4] = ["explore", "space.toml", "clip", "--quiet"];
 
 /// Explores the space into `out`. Returns the points.

@@ -194,7 +194,6 @@ impl ClockZones {
     }
 }
 
-/// Returns the classes of all lanes.
 fn class_lanes(field: &RecordField, input: &[u8]) -> Vec<RegionClass> {
     let class = |lane| {
         let code = u8::try_from(field.get(input, lane)).ok();

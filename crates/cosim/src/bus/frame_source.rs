@@ -65,7 +65,6 @@ impl BusFrameSource {
         }
     }
 
-    /// Returns the next frame, which is noise all over.
     pub(super) fn noise_frame(&mut self) -> Frame {
         self.frame_number += 1;
         draw_frame(&mut self.noise, &[Noise], 0, &mut self.random)

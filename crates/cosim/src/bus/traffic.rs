@@ -133,7 +133,6 @@ impl<'a> Traffic<'a> {
         &self.sessions
     }
 
-    /// Returns the largest pixel.
     pub(super) fn max_pixel(&self) -> u16 {
         u16::try_from(self.design.pixel_max()).expect("a pixel has at most 16 bits")
     }
@@ -223,7 +222,6 @@ impl<'a> Traffic<'a> {
         self.push_line(&format!("read {address:x}"));
     }
 
-    /// Waits for all reads and writes.
     pub(super) fn wait_for_accesses(&mut self) {
         self.push_line("join");
     }

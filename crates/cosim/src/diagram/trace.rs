@@ -20,7 +20,6 @@ const MAX_REGIONS: u32 = 1 << 14;
 
 /// The clocks from the edge that takes the first pixel on.
 pub(super) struct PortTrace {
-    /// The title of the diagram.
     pub(super) title: String,
     pub(super) signals: Vec<DiagramSignal>,
     /// The stretches of equal clocks, in order.
@@ -231,7 +230,6 @@ pub(super) fn columns(trace: &PortTrace) -> Vec<DiagramColumn> {
     columns
 }
 
-/// Returns the first and the last edges after which a signal changes.
 fn change_edges(stretches: &[ClockStretch], signal: usize) -> Vec<u64> {
     let pairs = stretches.windows(2);
     let changed = pairs.filter(|pair| pair[0].values[signal] != pair[1].values[signal]);

@@ -22,7 +22,6 @@ pub(crate) struct ActivityCounter<'a> {
     netlist: &'a SimulatedNetlist<'a>,
     clocks: u64,
     nets: Vec<[u64; 2]>,
-    /// The pins with energies.
     pins: Vec<CountedPin<'a>>,
     /// The numbers of the pins at each net; a pin of a clock is at all nets of its cell.
     pins_of_net: Vec<Vec<usize>>,
@@ -31,7 +30,6 @@ pub(crate) struct ActivityCounter<'a> {
     knows_conditions: bool,
 }
 
-/// A pin with energies.
 struct CountedPin<'a> {
     gate: usize,
     /// The number of the pin in its cell.

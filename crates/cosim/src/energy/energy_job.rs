@@ -178,7 +178,6 @@ fn shared_growth(netlist: &SimulatedNetlist<'_>, silicon: &SiliconReport) -> f64
 
 /// The figures from which energies of an array follow.
 struct ArrayEnergies<'a> {
-    /// The clocks of a frame of the array.
     clocks_per_frame: f64,
     silicon: &'a SiliconReport,
     frame_rate: f64,

@@ -7,7 +7,6 @@ use foveate_estimate::{CellModel, CellModels, FlatNetlist};
 
 use crate::energy::error::EnergyError;
 
-/// A netlist for a simulation.
 #[derive(Debug)]
 pub(crate) struct SimulatedNetlist<'a> {
     pub(crate) models: &'a CellModels,

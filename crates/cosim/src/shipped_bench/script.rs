@@ -190,7 +190,6 @@ impl<'a> ScriptWriter<'a> {
         (0..WIDE_FRAMES).map(|turn| self.wide_frame(turn)).collect()
     }
 
-    /// Returns the frames that are delivered damaged.
     fn damaged_frames(&self) -> Vec<(BenchFrame, FrameDelivery)> {
         let numbered = DELIVERIES.into_iter().enumerate();
         numbered.map(|(number, delivery)| (self.alternating_frame(number), delivery)).collect()

@@ -321,7 +321,6 @@ impl SituationMonitor {
         self.regions.decide(region, frame, decided, &mut self.facts);
     }
 
-    /// Keeps the outputs for the next clock.
     fn keep_outputs(&mut self, clock: WatchedClock<'_>) {
         self.was_ready = clock.is_high(&self.ports.ready);
         self.classes.keep_outputs(&self.ports, clock);

@@ -217,7 +217,6 @@ impl ClassActivity {
         facts.map_between_frames += u64::from(is_committed && !is_within);
     }
 
-    /// Keeps the outputs for the next clock.
     pub(super) fn keep_outputs(&mut self, ports: &WatchedPorts, clock: WatchedClock<'_>) {
         self.was_pending = clock.is_high(&ports.class_pending);
     }

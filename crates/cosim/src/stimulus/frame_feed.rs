@@ -100,7 +100,6 @@ impl<'a> FrameFeed<'a> {
     }
 }
 
-/// Returns the streams of all regions, one after the other.
 fn region_streams(design: &Design, frame: &Frame) -> Vec<u16> {
     let mut streams = Vec::new();
     for region in 0..design.regions() {

@@ -74,7 +74,6 @@ impl<'a> PortThresholds<'a> {
         self.zones.as_mut().map_or(0, |zones| zones.load_clocks() as u64)
     }
 
-    /// Returns the thresholds at the ports.
     pub(super) fn current(&self) -> ThresholdInputs {
         self.current
     }

@@ -35,7 +35,6 @@ pub(super) struct PortZones {
     changes: bool,
 }
 
-/// A writer of the memory of classes.
 #[derive(Clone, Debug)]
 struct ClassMemoryWriter {
     /// The number of words that the address can number, also beyond the map.
@@ -76,7 +75,6 @@ impl PortZones {
         })
     }
 
-    /// Begins a sequence with these classes.
     pub(super) fn begin_sequence(&mut self, choice: ClassChoice) {
         self.changes = choice == ClassChoice::Changing;
         match choice {

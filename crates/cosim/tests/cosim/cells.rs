@@ -57,7 +57,6 @@ const PRODUCT: &str = "module dut (
 endmodule
 ";
 
-/// The number of ports of a memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum MemoryPorts {
     /// One port reads and writes.

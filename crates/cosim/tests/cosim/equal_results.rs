@@ -65,7 +65,6 @@ impl RegionResult {
     }
 }
 
-/// The results, frame by frame and region by region.
 type FrameResults = Vec<Vec<RegionResult>>;
 
 fn functional_results(design: &Design, frames: &[Frame]) -> FrameResults {

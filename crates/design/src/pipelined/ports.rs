@@ -6,7 +6,6 @@ use crate::port::{class_input, decision_ports, sync_input, sync_output};
 use crate::thresholds::threshold_ports;
 use crate::{Design, Port, PortDirection, PortRole};
 
-/// Returns the interface of one RPU.
 pub(crate) fn rpu_interface(design: &Design) -> CoreInterface {
     use PortDirection::{Input, Output};
     let single = Port::scalar;

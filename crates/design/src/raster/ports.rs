@@ -15,7 +15,6 @@ const LOST_COUNT_BITS: u32 = 16;
 /// by their numbers if, while it stalls or while nothing changes, fewer frames than this pass.
 pub const FRAME_NUMBERS: u32 = 256;
 
-/// Returns the interface of the core.
 pub(super) fn interface(design: RasterDesign<'_>) -> CoreInterface {
     let word = design.pixels_per_clock() * design.pixel_bits();
     let mut streams = vec![pixel_stream(&design, word)];

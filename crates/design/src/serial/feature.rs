@@ -14,7 +14,6 @@
 use crate::{Design, SerialDesign};
 use foveate_camera::{Displacement, FeatureKind, Reciprocal, SpatialFeature, bits_for};
 
-/// Returns the number of steps of the pass of a feature.
 pub(super) fn pass_steps(design: &Design, feature: &SpatialFeature) -> u64 {
     let n = u64::from(design.region_pixels());
     let pixel_bits = u64::from(design.pixel_bits());

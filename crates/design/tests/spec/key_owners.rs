@@ -69,7 +69,6 @@ fn owners(row: &KeyRow<'_>) -> Vec<String> {
     setting.map(|setting| setting.replace(' ', "")).into_iter().collect()
 }
 
-/// Returns all settings of the key that an owner sets.
 fn all_settings(owner: &str) -> Vec<String> {
     let (key, _) = owner.split_once('=').unwrap();
     let names = match key {

@@ -20,12 +20,10 @@ pub enum FieldKind {
     Status,
     /// The field holds the value written last, and `reset` before the first write.
     Control {
-        /// The value after a reset.
         reset: u32,
     },
     /// The field behaves as `Control`, but the core takes a new value over when a frame begins.
     Threshold {
-        /// The value after a reset.
         reset: u32,
     },
     /// The core itself keeps the value, and the field reads what the core drives.

@@ -36,7 +36,6 @@ pub(crate) fn paired_range(side: usize, shift: i8) -> Range<usize> {
     if shift < 0 { 0..side - by } else { by..side }
 }
 
-/// Adds the differences between a row and its partners to the sums of their columns.
 #[inline(always)]
 pub(crate) fn add_differences<T: PixelLane>(
     row: &[Block<T>],

@@ -5,7 +5,6 @@
 use crate::kernel::{WindowRows, WindowSides, extended_block};
 use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane};
 
-/// The number of displacements.
 pub(crate) const DISPLACEMENTS: usize = 4;
 
 /// Adds the differences of every window to the sums of its column.

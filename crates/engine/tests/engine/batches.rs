@@ -13,13 +13,11 @@ use crate::hard_cases::camera;
 use crate::properties::assert_same;
 use crate::random_cameras::cameras;
 
-/// One call of an engine.
 #[derive(Clone, Copy, Debug)]
 struct EngineCall {
     frames: usize,
     /// Asks for the screens.
     screens: bool,
-    /// Resets the engine before the call.
     reset: bool,
     /// Gives the frames one by one in spite of their number.
     single: bool,

@@ -6,7 +6,6 @@ use foveate_camera::Camera;
 use foveate_pixels::Frame;
 use proptest::prelude::*;
 
-/// The change from one frame to the next.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum FrameChange {
     /// Every pixel is new.

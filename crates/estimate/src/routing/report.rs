@@ -228,7 +228,6 @@ pub(super) struct SourceNames<'a> {
 }
 
 impl SourceNames<'_> {
-    /// Returns the path in the names of the source.
     pub(super) fn path(&self, path: &TimingPath) -> Option<CriticalPath> {
         let first = path.steps.iter().find(|step| step.is_wire())?;
         let last = path.steps.last()?;

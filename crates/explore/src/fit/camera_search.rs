@@ -89,7 +89,6 @@ impl<'a> CameraSearch<'a> {
         Ok(Self { constraints, footage, halves, task, hardware, examined, best, compared: 0 })
     }
 
-    /// Returns all cameras that were examined.
     pub(super) fn all(&self) -> impl Iterator<Item = &ExaminedCamera> {
         self.examined.values()
     }
@@ -108,17 +107,14 @@ impl<'a> CameraSearch<'a> {
         self.constraints.limits_figures()
     }
 
-    /// Replaces a camera that was examined.
     pub(super) fn replace(&mut self, examined: ExaminedCamera) {
         self.examined.insert(examined.config.to_toml(), examined);
     }
 
-    /// Returns a camera, if it was examined.
     pub(super) fn get(&self, config: &CameraConfig) -> Option<&ExaminedCamera> {
         self.examined.get(&config.to_toml())
     }
 
-    /// Returns a camera with its best thresholds, if these were searched.
     pub(super) fn with_best_thresholds(&self, config: &CameraConfig) -> Option<&ThresholdChoice> {
         self.best.get(&text_without_thresholds(config))
     }

@@ -95,7 +95,6 @@ pub(super) fn synthesize_promising_designs(
     Ok(SynthesizedDesigns { candidates, left_out_designs: left_out })
 }
 
-/// The synthesis of designs for a fit.
 struct FitSynthesis<'a> {
     request: &'a FitRequest<'a>,
     /// The first halves of the clips, if there is a process.

@@ -26,7 +26,6 @@ pub struct RasterArray<'a> {
     unbuffered: RecordedModel<'a>,
     /// The sink of `unbuffered`.
     link: SinkPattern,
-    /// The number of the next frame.
     frame: u64,
 }
 
@@ -145,7 +144,6 @@ impl EventTimes<'_> {
         self.clock.edge(self.timeline.row_read_ns(frame, row))
     }
 
-    /// Returns the time of an event in ns.
     fn event_ns(&self, (edge, instant_edge): (u64, u64)) -> u64 {
         if self.has_clock {
             return self.clock.time_ns(edge);

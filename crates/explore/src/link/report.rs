@@ -136,7 +136,6 @@ pub(crate) struct RowRecord<'a> {
     pub(crate) design: &'a Design,
     /// The rows of regions, frame by frame.
     rows: Vec<RowOutput>,
-    /// The number of regions that were lost.
     pub(crate) lost_regions: u64,
     /// The numbers of the frames of these regions, in ascending order.
     pub(crate) frames_with_losses: Vec<u64>,

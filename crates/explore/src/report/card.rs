@@ -13,7 +13,6 @@ use crate::{DesignRow, ProcessFigures};
 pub(crate) struct PointCard {
     pub(crate) number: usize,
     pub(crate) front: bool,
-    /// The settings of the point.
     pub(crate) settings: String,
     /// The figures, each with its name and value.
     pub(crate) facts: Vec<(String, String)>,

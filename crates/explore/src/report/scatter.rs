@@ -208,7 +208,6 @@ pub(crate) struct PointGrouping {
     /// True if the page starts with this grouping.
     pub(crate) is_chosen: bool,
     pub(crate) groups: Vec<PointGroup>,
-    /// The number of the group of each row.
     pub(crate) of_row: Vec<usize>,
 }
 

@@ -202,7 +202,6 @@ struct DetectionBox {
     title: String,
 }
 
-/// A frame of the page.
 struct FramePicture {
     title: String,
     /// The receiver's screen as a PNG in base64.
@@ -210,7 +209,6 @@ struct FramePicture {
     marks: Vec<DetectionBox>,
 }
 
-/// The frames of the page.
 #[derive(Template)]
 #[template(path = "shots.html")]
 pub(super) struct FramePictures {
@@ -221,7 +219,6 @@ pub(super) struct FramePictures {
     pictures: Vec<FramePicture>,
 }
 
-/// Returns the frames that are kept, if there are any.
 pub(super) fn frame_pictures(shots: &KeptScreens) -> Result<Option<FramePictures>, PageError> {
     if shots.screens().is_empty() {
         return Ok(None);

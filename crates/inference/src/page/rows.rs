@@ -110,7 +110,6 @@ fn cell(value: FigureValue) -> TableCell {
     }
 }
 
-/// Returns a row per clip.
 pub(super) fn clips(summary: &InferenceSummary) -> TableRows {
     let keys = ["clip", "frames", "counted", "active", "changed", "needed", "computed", "problem"];
     let rows = (0..).zip(&summary.clips).map(|(number, clip)| {
@@ -119,7 +118,6 @@ pub(super) fn clips(summary: &InferenceSummary) -> TableRows {
     TableRows::new(CLIPS, &keys, rows)
 }
 
-/// Returns a row per layer.
 pub(super) fn layers(summary: &InferenceSummary) -> TableRows {
     let mut keys = vec!["name", "operator", "shape", "macs"];
     keys.extend(["needed_share", "scheduled_share", "changed_share"]);

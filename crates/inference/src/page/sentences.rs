@@ -19,7 +19,6 @@ use std::path::Path;
 /// The number of inputs that are named; the others are counted.
 const MAX_NAMED_INPUTS: usize = 3;
 
-/// Returns the title of the page.
 pub(super) fn title(summary: &InferenceSummary) -> String {
     let network = Path::new(&summary.network).file_name().map(|name| name.to_string_lossy());
     let network = network.unwrap_or_else(|| summary.network.as_str().into());

@@ -42,7 +42,6 @@ pub(crate) struct FrameAgreement {
     pub(crate) found: Option<DetectionCounts>,
 }
 
-/// The detections of the counted frames.
 #[derive(Debug)]
 pub(crate) struct CountedDetections {
     pub(crate) shots: KeptScreens,
@@ -57,7 +56,6 @@ pub(crate) struct DetectionRow {
     pub(crate) name: String,
     /// True if the detection is in the whole frame; false if it is on the receiver's screen.
     pub(crate) is_whole: bool,
-    /// True if the detection is in both.
     pub(crate) is_in_both: bool,
     pub(crate) detection: Detection,
 }
@@ -157,7 +155,6 @@ impl<'a> WholeFrameComparison<'a> {
         }
     }
 
-    /// Returns the detections, if they were read.
     pub(crate) fn into_detections(self) -> Option<CountedDetections> {
         let Self { vision_network, kept_screens: shots, rows, .. } = self;
         vision_network.detector().is_some().then_some(CountedDetections { shots, rows })

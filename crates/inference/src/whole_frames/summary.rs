@@ -66,7 +66,6 @@ pub struct GroundTruthFigures {
 #[derive(Clone, Debug)]
 pub(super) struct ReceiverTally {
     camera: Camera,
-    /// The number of pixels of a frame.
     pub(super) pixels: f64,
     pub(super) max: f64,
     /// The number of frames that the network saw; `sent_frames` counts the frames of the camera,

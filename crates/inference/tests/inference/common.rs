@@ -112,7 +112,6 @@ pub(crate) fn rows(folder: &Path, table: &str) -> Vec<TableRow> {
     reader.get_row_iter(None).unwrap().map(|found| row(found.unwrap())).collect()
 }
 
-/// Returns a number of a row.
 #[allow(clippy::cast_precision_loss, reason = "sums are compared")]
 pub(crate) fn number(row: &TableRow, column: &str) -> f64 {
     match &row[column] {
@@ -122,7 +121,6 @@ pub(crate) fn number(row: &TableRow, column: &str) -> f64 {
     }
 }
 
-/// Returns a text of a row.
 pub(crate) fn text<'a>(row: &'a TableRow, column: &str) -> &'a str {
     match &row[column] {
         Field::Str(value) => value,

@@ -231,7 +231,6 @@ fn listed_archive(path: &Path, images: ImageRelation) -> Option<(OpenArchive, Ve
     Some((archive, listed))
 }
 
-/// Opens the images of an archive.
 pub(super) fn open_zip(
     path: &Path,
     bits: u32,

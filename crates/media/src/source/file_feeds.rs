@@ -106,7 +106,6 @@ impl FrameFeed for ImageFiles {
     }
 }
 
-/// A feed of the frames of a scene.
 pub(crate) struct SceneFeed {
     name: String,
     total: u64,

@@ -20,9 +20,7 @@ pub enum SetFiles {
     Records,
     /// The images are in an IDX file, and the labels in another one.
     Idx {
-        /// The file of images.
         images: IdxFile,
-        /// The file of labels, if there is one.
         labels: Option<IdxFile>,
     },
 }

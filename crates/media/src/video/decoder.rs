@@ -16,7 +16,6 @@ const NETWORK_TIMEOUT: Duration = Duration::from_secs(10);
 /// The time that ffmpeg looks at a stream before it says anything about it.
 const PROBING_TIME: Duration = Duration::from_secs(5);
 
-/// The parameters of the decoding of a video.
 pub(super) struct DecodingParameters {
     pub(super) found: LocatedTool,
     pub(super) medium: VideoMedium,

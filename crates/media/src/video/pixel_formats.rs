@@ -30,7 +30,6 @@ pub(super) struct SampleFormat {
     pub(super) big_endian: bool,
 }
 
-/// Returns the filter for video of this format.
 pub(super) fn conversion_filter(name: &str) -> String {
     let starts = |prefixes: &[&str]| prefixes.iter().any(|prefix| name.starts_with(prefix));
     let deep_planes = name.starts_with("gbr") && name.contains(|c: char| c.is_ascii_digit());

@@ -7,7 +7,6 @@ use std::path::{Path, PathBuf};
 use foveate_media::boxes::{BoxError, BoxFile, FrameBoxes, FrameKey, LabelledBox};
 use foveate_pixels::Rect;
 
-/// Writes a file into a folder.
 pub(crate) fn file(folder: &Path, name: &str, text: impl AsRef<[u8]>) -> PathBuf {
     let path = folder.join(name);
     fs::create_dir_all(path.parent().unwrap()).unwrap();

@@ -74,7 +74,6 @@ fn words_of_cameras_are_read() {
     assert_eq!(found, expected.map(|(x, is_brighter)| event(x, 9, 5, is_brighter)));
 }
 
-/// A row of vectors without an end is no row.
 #[test]
 fn vectors_beyond_a_row_end_with_an_error() {
     let start: [u16; 4] = [0x8000, 0x6001, 0x0000, 0x3000];

@@ -338,7 +338,6 @@ impl GridFormat {
         if self.side > MAX_NUMBER_SIDE { 'X' } else { '*' }
     }
 
-    /// Returns the marks of hits.
     fn hit_marks(&self, hits: &SquareRows<bool>) -> SquareRows<char> {
         let row = |row: &Vec<bool>| {
             row.iter().map(|&hit| if hit { self.mark() } else { UNMARKED }).collect()
@@ -346,7 +345,6 @@ impl GridFormat {
         hits.iter().map(row).collect()
     }
 
-    /// Writes a square of pixels with a title, and the marks of pixels if there are any.
     fn show(
         &self,
         f: &mut Formatter<'_>,

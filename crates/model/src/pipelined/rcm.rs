@@ -79,7 +79,6 @@ impl PipelinedRcm {
         self.sync.is_error()
     }
 
-    /// Appends one value per lane.
     fn append_lanes(&self, values: &mut Vec<u64>, value: impl Fn(&RpuOutput) -> u64) {
         values.extend(self.outputs().iter().map(value));
     }

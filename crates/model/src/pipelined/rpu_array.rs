@@ -44,7 +44,6 @@ impl RpuArray {
         }
     }
 
-    /// Returns the number of RPUs.
     pub(super) fn lanes(&self) -> usize {
         self.tails.len()
     }

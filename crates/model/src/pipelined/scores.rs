@@ -118,7 +118,6 @@ impl RpuScores {
         }
     }
 
-    /// Returns the values of the score ports.
     pub(super) fn port_scores(&self, plan: &RpuParameters) -> [u64; MAX_FEATURES] {
         if !plan.second_pass {
             return self.running;

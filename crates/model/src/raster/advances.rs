@@ -11,7 +11,6 @@ use foveate_pixels::Frame;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct AdvanceCounter {
     timing: RasterTiming,
-    /// The number of the next advance.
     next: u64,
     /// The words that come in.
     incoming: WordScan,
@@ -59,7 +58,6 @@ impl AdvanceCounter {
         *self = Self::new(self.timing);
     }
 
-    /// Returns true if the next advance is the first of a frame.
     pub(super) fn is_between_frames(&self) -> bool {
         self.next == 0
     }

@@ -13,7 +13,6 @@ use std::collections::VecDeque;
 /// A region of one frame, all of whose words have come to the tail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct CompletedRegion {
-    /// The number of the region.
     pub(super) region: u32,
     /// The number of the row of regions, counted through all frames since reset.
     pub(super) row: u64,
@@ -28,7 +27,6 @@ pub(super) struct CompletedRegion {
 /// is boxed, because it goes from queue to queue.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct ScoredRasterRegion {
-    /// The number of the region.
     pub(super) region: u32,
     /// The number of the row of regions, counted through all frames since reset.
     pub(super) row: u64,

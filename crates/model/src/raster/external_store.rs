@@ -132,7 +132,6 @@ impl ExternalStorePorts {
         self.underrun
     }
 
-    /// Returns the scored pixels of a word.
     fn scored_word(&self, place: WordPosition, padded: &Frame) -> WordPixels {
         let Self { camera, timing, .. } = self;
         let region = place.row / camera.region_size() * camera.columns()

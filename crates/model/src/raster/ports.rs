@@ -111,7 +111,6 @@ impl RasterOutput {
         }
     }
 
-    /// Sets the store ports to a word that is to be stored, or to no word.
     pub(super) fn set_store_ports(&mut self, word: Option<&StoreWord>) {
         self.store_valid = word.is_some();
         self.store_last = word.is_some_and(|word| word.is_last);
@@ -121,7 +120,6 @@ impl RasterOutput {
         }
     }
 
-    /// Sets the decision ports to the decision of a region, or to no decision.
     pub(super) fn set_decision_ports(&mut self, decided: Option<&DecidedRasterRegion>) {
         let scored_region = decided.map(|decided| &decided.scored_region);
         let decision =

@@ -349,7 +349,6 @@ pub(super) struct RasterRegions {
     scorer: RegionScorer,
     /// Number of pixels of a region, n.
     pixels: usize,
-    /// The references, region by region.
     references: Vec<u16>,
     /// True for every region with a valid reference.
     has_reference: Vec<bool>,

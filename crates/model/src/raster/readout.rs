@@ -14,7 +14,6 @@ use std::collections::VecDeque;
 /// Least number of edges from the start of one holding to the next.
 const HOLD_INTERVAL: u64 = 2;
 
-/// A region that was lost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct LostRegion {
     pub(super) region: u32,
@@ -33,7 +32,6 @@ impl LostRegion {
 pub(super) struct ReadoutStep {
     /// True if a word was fetched.
     pub(super) has_fetched: bool,
-    /// The region that was lost, if there was one.
     pub(super) lost: Option<LostRegion>,
 }
 
@@ -205,7 +203,6 @@ impl DepartingRegion {
         Some(Self { scored_region, content, word_pixels, words, fetched_words: 0 })
     }
 
-    /// Returns the number of the region.
     pub(super) fn region(&self) -> u32 {
         self.scored_region.region
     }
@@ -230,7 +227,6 @@ impl DepartingRegion {
         self.fetched_words == self.words
     }
 
-    /// Fetches the next word.
     #[inline] // This is called at every clock.
     pub(super) fn fetch_word(&mut self) -> ForwardWord {
         let number = self.fetched_words;
@@ -262,7 +258,6 @@ impl DepartingRegion {
     }
 }
 
-/// Largest number of pixels of a word.
 const MAX_WORD_PIXELS: usize = 4;
 
 /// The pixels of a word, the left one first.

@@ -30,7 +30,6 @@ impl FrameIntake {
         Self { taken: 0, buffer: frame }
     }
 
-    /// Returns the number of pixels of the pixel port.
     pub(super) fn port_pixels(&self) -> usize {
         match &self.buffer {
             FeedBuffer::Streams(streams) => streams.lanes(),
@@ -188,7 +187,6 @@ impl RasterFeedFrame {
         Self { pixels: vec![0; columns.size() * rows.size()], columns, rows }
     }
 
-    /// Returns the number of pixels of a frame.
     pub(super) fn pixels(&self) -> usize {
         self.pixels.len()
     }

@@ -67,7 +67,6 @@ impl SerialOutput {
         *self = Self { forward_valid, forward_pixel, ..Self::default() };
     }
 
-    /// Appends the value of the port of a role.
     pub(super) fn append_port(&self, role: PortRole, values: &mut Vec<u64>) {
         let value = match role {
             PortRole::Ready => self.ready.into(),

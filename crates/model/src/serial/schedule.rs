@@ -4,7 +4,6 @@
 use foveate_camera::Periphery;
 use foveate_design::{PixelFeed, SerialDesign, SerialPhase, SerialTiming};
 
-/// The outputs in a step that has any.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum StepOutput {
     /// Score `number` of the region of one lane is on the ports. With `decides`, the decision is

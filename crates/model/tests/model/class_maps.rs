@@ -50,7 +50,6 @@ impl ClassMapLog {
         Self { regions, last_free: vec![0], commits: Vec::new(), writes: Vec::new() }
     }
 
-    /// Returns the number of the last edge.
     pub(crate) fn edge(&self) -> i64 {
         self.last_free.len() as i64 - 1
     }

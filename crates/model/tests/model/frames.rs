@@ -31,7 +31,6 @@ pub(crate) fn arbitrary_scripts(most: usize) -> impl Strategy<Value = ClipScript
     proptest::collection::vec((content, any::<u64>()), 1..=most)
 }
 
-/// Returns the frames of a script.
 pub(crate) fn make_clip(recipe: &DesignParameters, script: &ClipScript) -> Vec<Frame> {
     let (width, height) = (recipe.width as u32, recipe.height as u32);
     let max = recipe.pixel_max();

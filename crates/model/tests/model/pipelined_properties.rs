@@ -57,7 +57,6 @@ fn stream_edges(recipe: &DesignParameters, gaps: GapPattern, frames: usize) -> V
     edges
 }
 
-/// The classes of the regions at each edge.
 type ClassesByEdge = Vec<Vec<RegionClass>>;
 
 /// Streams a clip, and returns the outputs of every region after every edge. A design with zones

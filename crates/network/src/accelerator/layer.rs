@@ -86,9 +86,7 @@ pub struct Layer {
 pub(crate) struct ChannelGroups {
     /// The number of groups of channels, which are independent of each other.
     pub(crate) groups: u64,
-    /// The number of input channels of a group.
     pub(crate) inputs: u64,
-    /// The number of output channels of a group.
     pub(crate) outputs: u64,
 }
 

@@ -18,7 +18,6 @@ use std::ops::Range;
 pub(crate) const MAX_EXACT_PRODUCTS: usize = 256;
 /// The number of panels that share a pass over the weights.
 const BYTE_PANELS_PER_PASS: usize = 3;
-/// The number of channels of the largest block.
 const MAX_BLOCK_CHANNELS: usize = 12;
 
 /// The packed weights of a group of channels. Unsigned weights and their zero points are stored

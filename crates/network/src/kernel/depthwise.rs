@@ -89,7 +89,6 @@ pub(crate) struct AreaLayout {
     pitch: usize,
     /// The number of values of all planes of inputs.
     inputs: usize,
-    /// The number of values from the first output to the last.
     output_span: usize,
     /// The offset of the inputs of each tap.
     taps: Vec<usize>,

@@ -69,7 +69,6 @@ pub(super) struct GatheredInputs<T = f32> {
     pub(super) tap_offsets: Vec<usize>,
     /// The number of values of a row of the window.
     pub(super) pitch: usize,
-    /// The gathered values of all rows of the window.
     pub(super) window_rows: Vec<T>,
 }
 

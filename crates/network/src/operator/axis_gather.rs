@@ -57,7 +57,6 @@ pub(crate) struct AxisGather {
     pub(crate) axes: Vec<AxisSelection>,
     /// An axis of which a single element is taken, and which the output does not have.
     pub(crate) dropped_axis: Option<usize>,
-    /// The padding: a tensor of one value.
     pub(crate) padding: Option<Tensor>,
 }
 

@@ -174,9 +174,7 @@ pub(crate) struct ConvGeometry {
     pub(crate) rows: AxisWindow,
     pub(crate) columns: AxisWindow,
     pub(crate) groups: usize,
-    /// The channels of the output.
     pub(crate) output_channels: usize,
-    /// The channels of the input.
     pub(crate) input_channels: usize,
 }
 

@@ -201,7 +201,6 @@ impl OperatorJob<'_> {
     }
 }
 
-/// Returns the values of an output.
 pub(crate) fn output_values<'a, T: TensorNumber>(
     output: &'a mut TensorValues,
     form: &TensorForm,

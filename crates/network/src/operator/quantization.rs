@@ -229,7 +229,6 @@ pub(crate) struct ByteTable {
 }
 
 impl ByteTable {
-    /// Returns the table of a function of stored values.
     pub(crate) fn from_stored_function(
         element: ElementType,
         function: impl Fn(i32) -> i32,
@@ -269,7 +268,6 @@ impl ByteTable {
     }
 }
 
-/// Returns the range of all values.
 fn value_range(element: ElementType) -> std::ops::RangeInclusive<i32> {
     let (lowest, highest) = element.range();
     lowest..=highest

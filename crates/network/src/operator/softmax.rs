@@ -15,7 +15,6 @@ use crate::values::ByteNumber;
 pub(crate) struct Softmax {
     pub(crate) axis: i64,
     pub(crate) spans_following_axes: bool,
-    /// True for the logarithm of the softmax.
     pub(crate) is_logarithm: bool,
 }
 

@@ -12,7 +12,6 @@ use crate::network::Network;
 use crate::onnx::TensorProto;
 use std::path::Path;
 
-/// A network that was read for arrays.
 pub(crate) struct ArrayNetwork {
     pub(crate) network: Network,
     /// The values of the network's input.
@@ -20,7 +19,6 @@ pub(crate) struct ArrayNetwork {
     outputs: Vec<ArrayOutput>,
 }
 
-/// An output of a network.
 struct ArrayOutput {
     name: String,
     /// The declared type, if the model declares one.

@@ -249,7 +249,6 @@ fn axis_position(order: &[usize], axis: usize) -> usize {
     order.iter().position(|&other| other == axis).expect("every axis is named")
 }
 
-/// Returns the stride of an axis, in values.
 fn stride(shape: &[usize], axis: usize) -> usize {
     shape[axis + 1..].iter().product()
 }

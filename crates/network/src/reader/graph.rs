@@ -22,7 +22,6 @@ use prost::decode_length_delimiter as varint;
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-/// The source of the values of the inputs.
 pub(super) enum InputSource<'a> {
     /// The only input takes frames of this size, or of the network's size if there is none.
     Frames(Option<FrameSize>),
@@ -42,7 +41,6 @@ pub(super) enum ProblemPolicy {
     Note,
 }
 
-/// The result of reading a graph.
 pub(super) struct GraphResult {
     pub(super) network: Network,
     /// The outputs in order, each with its name: a tensor of the network, or a constant.
@@ -131,7 +129,6 @@ fn tensor_outputs(outputs: &[(String, GraphValue)]) -> Vec<(String, usize)> {
 const SELECTION_ADVICE: &str = "; in most models it selects detections behind the network, so export without it \
     (Ultralytics: `nms=False` and `end2end=False`; other YOLO: without `--end2end`), or cut the model before it with \
     `onnx.utils.extract_model`";
-/// The advice on a function of the model.
 const FUNCTION_ADVICE: &str = ", because it is a function of the model itself; replace functions by their nodes: \
     `onnx.save(onnx.inliner.inline_local_functions(onnx.load(\"MODEL\")), \"INLINED\")`";
 
@@ -331,7 +328,6 @@ impl GraphReader<'_> {
         Ok(())
     }
 
-    /// Returns the outputs of a node.
     fn node_outputs(&self, node: &NodeProto) -> Result<Vec<NodeOutput>, String> {
         for input in node.input.iter().filter(|input| !input.is_empty()) {
             if !self.values.contains_key(input) {
@@ -356,7 +352,6 @@ impl GraphReader<'_> {
         Ok(outputs)
     }
 
-    /// Returns the outputs of the graph.
     fn graph_outputs(&self, graph: &GraphProto) -> Result<Vec<(String, GraphValue)>, NetworkError> {
         if graph.output.is_empty() {
             return Err(NetworkError::InvalidNetwork("it has no output".to_owned()));

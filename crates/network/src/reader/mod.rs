@@ -143,7 +143,6 @@ fn not_onnx(path: &Path, problem: &str) -> NetworkError {
     NetworkError::NotOnnx { path: path.to_owned(), problem: problem.to_owned() }
 }
 
-/// Reads the graph of a model.
 fn read_model_graph(
     model: &ModelProto,
     (path, folder): (&Path, &ModelFolder),
@@ -162,7 +161,6 @@ fn read_model_graph(
     graph::read_graph(graph, functions, folder, source, (opset, on_problem))
 }
 
-/// Decodes the model in a file.
 fn decode_model(bytes: &[u8], path: &Path) -> Result<ModelProto, NetworkError> {
     let memory = graph::model_memory(bytes);
     if memory > MAX_MESSAGE_BYTES {

@@ -93,7 +93,6 @@ impl<'a> NodeReader<'a> {
         tensor.map(|tensor| Constant::decode(tensor, self.folder)).transpose()
     }
 
-    /// Returns an input, if the node has it.
     pub(super) fn input(&self, at: usize) -> Option<&'a GraphValue> {
         self.node
             .input
@@ -280,7 +279,6 @@ pub(super) fn index_from_start(at: i64, length: usize) -> i64 {
     if at < 0 { at.saturating_add(length_to_i64(length)) } else { at }
 }
 
-/// An output of a node.
 pub(super) enum NodeOutput {
     Constant(Constant),
     /// The output is an input of the node.
@@ -290,7 +288,6 @@ pub(super) enum NodeOutput {
     Activated(Activation, usize),
 }
 
-/// Returns one output, which an operator makes of these tensors.
 pub(super) fn output_of_tensors(
     operator: impl Operator + 'static,
     inputs: Vec<usize>,
@@ -334,7 +331,6 @@ impl<'a> NodeAttributes<'a> {
         Some(&self.node.attribute[at])
     }
 
-    /// Returns the attributes that were not read.
     pub(super) fn unread(&self) -> impl Iterator<Item = &'a AttributeProto> {
         let read = self.was_read.borrow().clone();
         self.node

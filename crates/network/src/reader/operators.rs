@@ -181,7 +181,6 @@ pub(super) fn is_supported(kind: &str) -> bool {
     operators().any(|name| name == kind)
 }
 
-/// Returns the outputs of a node.
 pub(super) fn read_outputs(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
     let (_, maker) = OPERATORS
         .iter()

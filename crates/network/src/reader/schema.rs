@@ -146,7 +146,6 @@ impl AttributeSchema {
         Ok(())
     }
 
-    /// Returns true if an attribute has its default value.
     fn has_default(&self, attribute: &AttributeProto) -> bool {
         match (self.kind, self.default) {
             ("INT", Some(default)) => default.parse() == Ok(attribute.i.unwrap_or(0)),

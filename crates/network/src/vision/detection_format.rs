@@ -255,7 +255,6 @@ fn first_shape(outputs: &[OutputTensor]) -> &[usize] {
     outputs.first().map_or(&[], |output| &output.shape)
 }
 
-/// Returns the output of scores and that of boxes.
 fn scores_and_boxes(outputs: &[OutputTensor]) -> Option<(&OutputTensor, &OutputTensor)> {
     let is_boxes = |output: &&OutputTensor| matches!(output.shape[..], [1, _, 4]);
     let has_name_of_boxes =

@@ -45,7 +45,6 @@ pub struct FrameInput {
     pub changed_regions: usize,
 }
 
-/// The conversion of pixels of the frame to input values.
 #[derive(Clone, Debug)]
 enum PixelConversion {
     /// Every pixel of the frame is one pixel of the input. The tables hold the input value of every

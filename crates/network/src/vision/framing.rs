@@ -136,9 +136,7 @@ struct BilinearTap {
 pub(super) struct FrameScaling {
     columns: Vec<BilinearTap>,
     rows: Vec<BilinearTap>,
-    /// The width of the frame.
     width: usize,
-    /// The width of the input.
     input_width: usize,
     /// The pixels of the frame per pixel of the input, along x and y.
     scale: (f64, f64),

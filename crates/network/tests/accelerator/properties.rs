@@ -24,7 +24,6 @@ fn computed(accelerator: &Accelerator, case: &LayerCase, mask: &PositionSet) -> 
     round_up_to_tiles(&inside, case.outputs, accelerator.tile.map(u64::from))
 }
 
-/// Returns all totals of a cost.
 fn totals(cost: &LayerCost) -> Vec<f64> {
     #[allow(clippy::cast_precision_loss, reason = "small numbers")]
     let counts = [

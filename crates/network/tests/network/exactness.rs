@@ -7,7 +7,6 @@ use crate::model::{AttributeValue, ModelBuilder, noise};
 use foveate_network::{ExecutionMode, Executor, Mask, Network};
 use proptest::prelude::*;
 
-/// A layer of a random network.
 #[derive(Clone, Debug)]
 enum RandomLayer {
     Conv {

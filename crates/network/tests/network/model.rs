@@ -122,7 +122,6 @@ impl ModelBuilder {
     }
 }
 
-/// The value of an attribute.
 #[derive(Clone, Debug)]
 pub(crate) enum AttributeValue {
     Int(i64),

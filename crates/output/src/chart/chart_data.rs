@@ -39,7 +39,6 @@ pub enum ChartData {
     Bars {
         /// The names of the groups.
         groups: Vec<String>,
-        /// The series.
         series: Vec<BarSeries>,
     },
 }

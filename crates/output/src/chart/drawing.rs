@@ -203,7 +203,6 @@ pub(crate) fn draw_bars<DB: DrawingBackend>(
 
 /// The width of the legend in pixels.
 pub(crate) const LEGEND_WIDTH: u32 = 210;
-/// The most letters of a name in the legend.
 const LEGEND_MAX_NAME_LETTERS: usize = 25;
 
 /// Returns the vertical positions of the rows of a legend in pixels.

@@ -48,7 +48,6 @@ impl ParquetFile {
         written.map_err(cannot_write(&self.path))
     }
 
-    /// Returns the path of the file, which can be given up.
     pub(super) fn path(&self) -> PathBuf {
         self.path.clone()
     }

@@ -20,7 +20,6 @@ pub(super) struct SinkFrame<'a> {
     /// a design without zones.
     pub(super) map_version: Option<u16>,
     pub(super) outcome: &'a FrameOutcome,
-    /// The screen after the frame.
     pub(super) screen: FramePixels<'a>,
     /// True if the frame is the first one after a reset of the camera.
     pub(super) is_first: bool,

@@ -39,7 +39,6 @@ pub(super) struct SendingRegion {
     pub(super) copy: Option<Arc<[u16]>>,
 }
 
-/// The state of the region that the readout holds.
 #[derive(Clone, Copy, Debug)]
 struct HoldState {
     /// The edge at which the readout started to hold it.
@@ -78,7 +77,6 @@ pub(super) struct Readout {
     hold_interval: u64,
     /// The regions that have words to fetch, the oldest first.
     queue: VecDeque<SendingRegion>,
-    /// The state of the first of them, if it is held.
     held: Option<HoldState>,
     /// The first edge at which the readout may hold the next region, if that is in the queue.
     next_hold: u64,

@@ -152,7 +152,6 @@ impl IntakeClocks {
     }
 }
 
-/// Returns the sums of the numbers before each of them, and that of all.
 fn sums(counts: impl Iterator<Item = u32>) -> Vec<u64> {
     let mut sum = 0;
     let rest = counts.map(|count| {

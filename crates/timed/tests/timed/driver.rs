@@ -25,17 +25,14 @@ pub(crate) struct RecordedDelivery {
     pub(crate) reset: Option<u64>,
 }
 
-/// A recorded run.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct RecordedRun {
     pub(crate) deliveries: Vec<RecordedDelivery>,
     pub(crate) stalls: Vec<Range<u64>>,
     pub(crate) events: Vec<PortEvent>,
-    /// The number of edges.
     pub(crate) edges: u64,
 }
 
-/// A delivery as it is planned.
 struct PlannedDelivery {
     frame: Frame,
     beats: u64,

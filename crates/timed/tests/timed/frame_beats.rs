@@ -5,7 +5,6 @@ use foveate_design::{Design, Hardware, PixelFeed, SerialDesign};
 use foveate_model::{pad, region_stream};
 use foveate_pixels::Frame;
 
-/// Returns the beats of a frame.
 pub(crate) fn frame_beats(design: &Design, frame: &Frame) -> Vec<Vec<u16>> {
     match design.hardware() {
         Hardware::Pipelined(_) => {

@@ -10,7 +10,6 @@ use foveate_timed::{
 
 use crate::page_examples::{design, random_frames};
 
-/// An event of a region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum RegionEvent {
     Decided,

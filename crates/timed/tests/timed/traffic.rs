@@ -36,7 +36,6 @@ pub(crate) struct Traffic {
     pub(crate) longest_pause: u64,
     /// The longest time for which the sink is ready, or 0 if it never stalls.
     pub(crate) longest_ready: u64,
-    /// The longest stall.
     pub(crate) longest_stall: u64,
     /// The percentage of frames with a reset.
     pub(crate) resets: u64,

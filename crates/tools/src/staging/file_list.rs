@@ -63,7 +63,6 @@ impl FileList {
         }
     }
 
-    /// Returns the names of the listed files.
     pub(crate) fn names(&self) -> impl Iterator<Item = &[u8]> {
         self.0.keys().map(Vec::as_slice)
     }

@@ -310,7 +310,6 @@ fn in_parallel<T: Sync, R: Send>(
     Ok(results.into_iter().map(|(_, result)| result).collect())
 }
 
-/// The lists that Verilator writes for its own makefile.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub(super) struct MakefileLists {
     /// The generated files that run often, without `.cpp`.

@@ -28,7 +28,6 @@ impl Host for ScriptedYosysHost {
     }
 }
 
-/// Makes a Yosys that writes this text as its result.
 fn fake_yosys(dir: &Path, name: &str, result: &str) -> Toolchain {
     let path = dir.join(name);
     let script = format!(

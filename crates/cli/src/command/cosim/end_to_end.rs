@@ -140,7 +140,6 @@ fn differences(received: &Path, simulated: &Path) -> Result<(usize, Vec<String>)
     Ok((all.len(), all.iter().filter(differs).cloned().collect()))
 }
 
-/// Returns the names of the files in a folder.
 fn file_names(folder: &Path) -> Result<Vec<String>, CliError> {
     let entries = fs::read_dir(folder).map_err(CliError::io("read the folder", folder))?;
     let name = |entry: std::io::Result<fs::DirEntry>| {

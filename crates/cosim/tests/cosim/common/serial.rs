@@ -12,7 +12,6 @@ pub(crate) fn serial_config(features: &[SpatialConfig]) -> DesignConfig {
     config
 }
 
-/// Returns the name of a serial configuration and its grid.
 pub(crate) fn serial_config_name(config: &DesignConfig, grid: (u32, u32)) -> String {
     let mut hardware = config.hardware.clone();
     let own = hardware.make_serial();

@@ -58,7 +58,6 @@ const DESIGNS: &[(&[&str], &[&str])] = &[
 /// The replaced text of the driver, and its replacement.
 type DriverFault = Option<(&'static str, &'static str)>;
 
-/// Returns a design with other settings.
 fn with_settings(design: &Design, keys: &[&str]) -> Design {
     let config =
         foveate_design::DesignConfig::from_toml_with(&design.config().to_toml(), keys).unwrap();

@@ -19,7 +19,6 @@ pub(super) struct PlantedFault {
     pub(super) to: &'static str,
 }
 
-/// A design in which faults are planted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct FaultDesign {
     toml: &'static str,

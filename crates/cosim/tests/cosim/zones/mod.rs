@@ -13,9 +13,7 @@ use foveate_cosim::{CosimLevel, Simulator};
 use foveate_design::DesignConfig;
 use foveate_tools::testing::sample;
 
-/// A design with zones.
 pub(super) struct ZonedDesign {
-    /// The purpose of the design.
     purpose: &'static str,
     /// The columns and rows of its regions.
     grid: (u32, u32),

@@ -41,7 +41,6 @@ const FEATURES: [&str; 10] = [
       {feature='corner',level=0,min_score=1},{feature='variance',min_score=0},{feature='range',min_score=0},\
       {feature='surface',min_score=0},{feature='segment',level=0,min_score=0}]",
 ];
-/// The filters with a window.
 const WINDOW_FILTERS: [&str; 3] = ["median3x3", "switching3x3", "binomial3x3"];
 const SIZES: [u32; 7] = [2, 3, 5, 8, 16, 20, 64];
 const DEPTHS: [u32; 4] = [1, 8, 10, 16];

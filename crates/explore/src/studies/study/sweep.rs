@@ -41,7 +41,6 @@ pub(crate) fn run_threshold(watcher: &StudyRunner<'_>) -> Result<StudyFindings, 
     run(Study::Threshold, watcher, &threshold_keys(watcher.config))
 }
 
-/// Returns the keys of the three thresholds.
 pub(super) fn threshold_keys(config: &DesignConfig) -> [SweptKey; 3] {
     [min_score_key(config), level_key(config), min_count_key(config)]
 }

@@ -204,7 +204,6 @@ fn flat_script() -> ClipScript {
     contents.into_iter().zip(5..).collect()
 }
 
-/// A sink that loses summaries.
 const SUMMARY_LOSING_SINK: RasterTraffic =
     RasterTraffic { sink: SinkPattern::Alternating(2000), ..SLOW_SINK };
 

@@ -190,7 +190,6 @@ impl RasterParameters {
             && a / self.row_words() < self.base.height
     }
 
-    /// Returns the number i of the last word of a region.
     pub(crate) fn last_word(&self, region: i64) -> i64 {
         let (row, column) = (region / self.base.columns(), region % self.base.columns());
         let wide = self.base.side / self.word_pixels;

@@ -82,7 +82,6 @@ impl ReadoutHistory {
         });
     }
 
-    /// Processes the next edge.
     pub(crate) fn process_edge(&mut self, edge: i64, sink: bool) {
         let before = self.shown[edge as usize - 1];
         let steps = before.is_none() || sink;
@@ -126,7 +125,6 @@ impl ReadoutHistory {
         }
     }
 
-    /// Returns the regions that are lost at that edge.
     pub(crate) fn lost_at(&self, edge: i64) -> Vec<&RegionReadout> {
         self.regions.iter().filter(|reading| reading.lost == Some(edge)).collect()
     }

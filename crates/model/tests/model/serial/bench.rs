@@ -48,7 +48,6 @@ pub(crate) struct SerialBench {
     timeline: ExpectedTimeline,
     traffic: SerialTraffic,
     random: SeededRandom,
-    /// The number of the last edge.
     pub(crate) edge: i64,
     /// The edge after which the run ends.
     last_edge: i64,

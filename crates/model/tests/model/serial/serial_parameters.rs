@@ -44,7 +44,6 @@ impl SerialParameters {
         (self.regions() + self.fold - 1) / self.fold
     }
 
-    /// Returns the number of pixels of the pixel port.
     pub(crate) fn port_pixels(&self) -> i64 {
         if self.raster { 1 } else { self.lanes() }
     }
@@ -173,7 +172,6 @@ impl SerialParameters {
         }
     }
 
-    /// Returns the steps of a phase.
     pub(crate) fn steps(&self, phase: ExpectedPhase) -> i64 {
         match phase {
             ExpectedPhase::WithoutOutput(steps) => steps,

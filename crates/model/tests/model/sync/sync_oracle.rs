@@ -5,7 +5,6 @@
 /// The ports at an edge at which the array would take a beat.
 #[derive(Clone, Debug)]
 pub(crate) struct StreamEdge {
-    /// Number of the edge.
     pub(crate) clock: usize,
     pub(crate) valid: bool,
     pub(crate) sof: bool,

@@ -30,11 +30,8 @@ pub(crate) struct PassMapping {
 /// A kernel in parts that fit into the array and its elements.
 #[derive(Clone, Copy, Debug)]
 struct KernelParts {
-    /// The number of rows of a part.
     rows: u64,
-    /// The number of columns of a part.
     columns: u64,
-    /// The number of parts.
     count: u64,
 }
 

@@ -18,7 +18,6 @@ use crate::output::png_writers::RawImage;
 
 pub(super) const FOLDER: &str = "images";
 
-/// The naming of the new files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FileNaming {
     /// The files have the names of the input files.

@@ -48,7 +48,6 @@ pub(super) struct TrackCounts {
 pub(super) struct RecallSums {
     frames: u64,
     bits: u64,
-    /// The counts, one per class.
     counts: Vec<ClassCounts>,
     pub(super) tracks: BTreeMap<u64, TrackCounts>,
 }
