@@ -14,12 +14,12 @@ use crate::kernel::{
     SharedSides, WindowRows, WindowSides, corner, edge, flow, mad, range, segment, sums, surface,
     temporal,
 };
-use crate::lane_levels::LaneLevels;
 use crate::periphery::PeripheryPlan;
 use crate::pixels::BorrowedFrame;
 use crate::plan::CameraPlan;
+use crate::vector_levels::VectorLevels;
 use crate::working_memory::{ColumnSums, RegionSums, WorkingMemory};
-use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane, saturated_threshold};
+use foveate_pixels::vectors::{BLOCK_LENGTH, Block, VectorPixel, saturated_threshold};
 
 /// Returns the blocks of a run in row `y` of a padded plane.
 #[inline(always)]
@@ -29,7 +29,7 @@ fn row_blocks<'a, T>(
     y: usize,
     run: &Range<usize>,
 ) -> &'a [Block<T>] {
-    plane[y * stride + run.start * BLOCK_LANES..][..run.len() * BLOCK_LANES].as_chunks().0
+    plane[y * stride + run.start * BLOCK_LENGTH..][..run.len() * BLOCK_LENGTH].as_chunks().0
 }
 
 /// Returns the blocks of a run in row `y` of a padded plane, to be written.
@@ -40,16 +40,16 @@ fn row_blocks_mut<'a, T>(
     y: usize,
     run: &Range<usize>,
 ) -> &'a mut [Block<T>] {
-    plane[y * stride + run.start * BLOCK_LANES..][..run.len() * BLOCK_LANES].as_chunks_mut().0
+    plane[y * stride + run.start * BLOCK_LENGTH..][..run.len() * BLOCK_LENGTH].as_chunks_mut().0
 }
 
 /// Adds one row to the values of the features that use windows.
 #[inline(always)]
-fn add_window_features<T: PixelLane>(
+fn add_window_features<T: VectorPixel>(
     plan: &CameraPlan<T>,
     windows: WindowRows<'_, T>,
     sides: impl WindowSides<T>,
-    levels: Option<&LaneLevels<T>>,
+    levels: Option<&VectorLevels<T>>,
     columns: &mut ColumnSums<T>,
     run: &Range<usize>,
 ) {
@@ -80,7 +80,7 @@ fn add_window_features<T: PixelLane>(
 
 /// A band of regions with its part of the planes.
 #[derive(Debug)]
-pub(crate) struct BandPass<'a, T: PixelLane> {
+pub(crate) struct BandPass<'a, T: VectorPixel> {
     pub(crate) plan: &'a CameraPlan<T>,
     pub(crate) raw: BorrowedFrame<'a, T>,
     /// The number of the band, counted from the top.
@@ -94,7 +94,7 @@ pub(crate) struct BandPass<'a, T: PixelLane> {
     pub(crate) classes: &'a [RegionClass],
 }
 
-impl<T: PixelLane> BandPass<'_, T> {
+impl<T: VectorPixel> BandPass<'_, T> {
     /// Fills `scratch.sums` for every region that the runs cover.
     #[inline(always)]
     pub(crate) fn compute_sums(&mut self, scratch: &mut WorkingMemory<T>) {
@@ -150,7 +150,7 @@ impl<T: PixelLane> BandPass<'_, T> {
             let partners = flow::paired_range(side, -displacement.dy);
             for run in runs {
                 let sums = &mut flow_columns.blocks_mut()[run.clone()];
-                sums.fill([T::ColumnSum::default(); BLOCK_LANES]);
+                sums.fill([T::ColumnSum::default(); BLOCK_LENGTH]);
                 for (row, partner) in rows.clone().zip(partners.clone()) {
                     let current = row_blocks(self.denoised, stride, row, run);
                     let partners = references[partner].shifted_blocks(run, displacement.dx);
@@ -177,7 +177,7 @@ impl<T: PixelLane> BandPass<'_, T> {
             let block_sums = &mut columns.sum.blocks_mut()[run.clone()];
             let rows = row * periphery.side..(row + 1) * periphery.side;
             if plan.keeps_raw {
-                block_sums.fill([T::ColumnSum::default(); BLOCK_LANES]);
+                block_sums.fill([T::ColumnSum::default(); BLOCK_LENGTH]);
                 for y in rows {
                     let pixels = self.raw.row(self.number * plan.side + y);
                     raw.values_mut()[..plan.width].copy_from_slice(pixels);
@@ -185,7 +185,12 @@ impl<T: PixelLane> BandPass<'_, T> {
                     sums::add_to_columns(raw.blocks(run), block_sums);
                 }
             } else {
-                sums::add_rows(&self.denoised[run.start * BLOCK_LANES..], stride, rows, block_sums);
+                sums::add_rows(
+                    &self.denoised[run.start * BLOCK_LENGTH..],
+                    stride,
+                    rows,
+                    block_sums,
+                );
             }
             let columns = &columns.sum[covered.start * periphery.side..];
             periphery.compute_means(columns, &mut means[covered.clone()]);
@@ -254,7 +259,7 @@ impl<T: PixelLane> BandPass<'_, T> {
         &mut self,
         current: &[Block<T>],
         row: usize,
-        levels: Option<&LaneLevels<T>>,
+        levels: Option<&VectorLevels<T>>,
         columns: &mut ColumnSums<T>,
         run: &Range<usize>,
     ) {
@@ -377,7 +382,7 @@ impl<T: PixelLane> BandPass<'_, T> {
     ) {
         let WorkingMemory { columns, region_sums, .. } = scratch;
         let (side, n) = (self.plan.side, u64::from(self.plan.region_pixels()));
-        let lane = |bound: u64| {
+        let element = |bound: u64| {
             saturated_threshold(u32::try_from(bound).expect("a bound is below twice the pixels"))
         };
         let [upper, lower] = &mut columns.segment_bounds;
@@ -387,15 +392,15 @@ impl<T: PixelLane> BandPass<'_, T> {
             (Some(keen), Some(RegionClass::Keen)) => keen,
             _ => segment,
         };
-        let bound = |region, sum| lane(of_region(region).upper_bound(sum, n));
+        let bound = |region, sum| element(of_region(region).upper_bound(sum, n));
         sums::spread_over_columns(sums, side, bound, upper);
-        let bound = |region, sum| lane(of_region(region).lower_bound(sum, n));
+        let bound = |region, sum| element(of_region(region).lower_bound(sum, n));
         sums::spread_over_columns(sums, side, bound, lower);
         for run in runs {
             let bounds = columns.segment_bounds.each_ref();
             let bounds = bounds.map(|bound| &bound.blocks()[run.clone()]);
             for counts in &mut columns.segment {
-                counts.blocks_mut()[run.clone()].fill([T::default(); BLOCK_LANES]);
+                counts.blocks_mut()[run.clone()].fill([T::default(); BLOCK_LENGTH]);
             }
             for row in 0..side {
                 let current = row_blocks(self.denoised, self.plan.stride(), row, run);
@@ -433,9 +438,9 @@ impl<T: PixelLane> BandPass<'_, T> {
         let above = &mut columns.above.blocks_mut()[run.clone()];
         let count_above = &mut columns.count_above.blocks_mut()[run.clone()];
         let mean = &columns.mean.blocks()[run.clone()];
-        above.fill([T::ColumnSum::default(); BLOCK_LANES]);
+        above.fill([T::ColumnSum::default(); BLOCK_LENGTH]);
         if fraction_bits > 0 {
-            count_above.fill([T::default(); BLOCK_LANES]);
+            count_above.fill([T::default(); BLOCK_LENGTH]);
         }
         for row in 0..self.plan.side {
             let current = row_blocks(self.denoised, stride, row, run);
@@ -447,7 +452,7 @@ impl<T: PixelLane> BandPass<'_, T> {
     }
 }
 
-impl<T: PixelLane> ColumnSums<T> {
+impl<T: VectorPixel> ColumnSums<T> {
     /// Sets every sum that the first pass of a run uses to zero.
     #[inline(always)]
     fn clear(&mut self, plan: &CameraPlan<T>, run: &Range<usize>) {
@@ -462,26 +467,26 @@ impl<T: PixelLane> ColumnSums<T> {
             mad: _,
             segment: _,
         } = plan.passes;
-        self.changed.blocks_mut()[run.clone()].fill([T::default(); BLOCK_LANES]);
+        self.changed.blocks_mut()[run.clone()].fill([T::default(); BLOCK_LENGTH]);
         if edge.is_some() {
-            self.edge.blocks_mut()[run.clone()].fill([T::default(); BLOCK_LANES]);
+            self.edge.blocks_mut()[run.clone()].fill([T::default(); BLOCK_LENGTH]);
         }
         if corner.is_some() {
-            self.corner.blocks_mut()[run.clone()].fill([T::default(); BLOCK_LANES]);
+            self.corner.blocks_mut()[run.clone()].fill([T::default(); BLOCK_LENGTH]);
         }
         if sums {
-            self.sum.blocks_mut()[run.clone()].fill([T::ColumnSum::default(); BLOCK_LANES]);
+            self.sum.blocks_mut()[run.clone()].fill([T::ColumnSum::default(); BLOCK_LENGTH]);
         }
         if squares {
-            self.square.blocks_mut()[run.clone()].fill([T::SquareSum::default(); BLOCK_LANES]);
+            self.square.blocks_mut()[run.clone()].fill([T::SquareSum::default(); BLOCK_LENGTH]);
         }
         if extremes {
-            self.smallest.blocks_mut()[run.clone()].fill([T::MAX; BLOCK_LANES]);
-            self.largest.blocks_mut()[run.clone()].fill([T::default(); BLOCK_LANES]);
+            self.smallest.blocks_mut()[run.clone()].fill([T::MAX; BLOCK_LENGTH]);
+            self.largest.blocks_mut()[run.clone()].fill([T::default(); BLOCK_LENGTH]);
         }
         if differences {
             for sums in &mut self.differences {
-                sums.blocks_mut()[run.clone()].fill([T::ColumnSum::default(); BLOCK_LANES]);
+                sums.blocks_mut()[run.clone()].fill([T::ColumnSum::default(); BLOCK_LENGTH]);
             }
         }
     }

@@ -5,13 +5,13 @@
 use foveate_camera::Camera;
 
 use super::receiver;
-use crate::engine::{Engine, LaneCore};
-use crate::lane_engine::{KeptBuffers, LaneEngine};
+use crate::engine::{Engine, EngineCore};
 use crate::pixels::BorrowedFrame;
 use crate::plan::index;
+use crate::typed_engine::{KeptBuffers, TypedEngine};
 use crate::workers::Workers;
 use crate::{BatchScreens, EngineError, FrameOutcome};
-use foveate_pixels::lanes::PixelLane;
+use foveate_pixels::vectors::VectorPixel;
 
 /// The number of bytes of the frames of a group, which goes through the engine together. A group is
 /// small enough that its pixels are still in the last-level cache when they are scored, after all
@@ -41,13 +41,13 @@ impl Engine {
         screens: Option<&mut BatchScreens<u8>>,
     ) -> Result<&[FrameOutcome], EngineError> {
         let frames = check_frames(&self.camera, frames, stride)?;
-        let Self { camera, workers, lanes, outcome, batch_outcomes: outcomes, .. } = self;
-        match lanes {
-            LaneCore::Bytes(core) => {
+        let Self { camera, workers, core, outcome, batch_outcomes: outcomes, .. } = self;
+        match core {
+            EngineCore::Bytes(core) => {
                 resize_outcomes(outcomes, camera, frames.len());
                 step_groups(core, workers, &frames, outcome, (outcomes, screens));
             }
-            LaneCore::Words(_) => return Err(self.wrong_lanes("u16", "u8")),
+            EngineCore::Words(_) => return Err(self.wrong_pixel_type("u16", "u8")),
         }
         Ok(&self.batch_outcomes[..frames.len()])
     }
@@ -64,19 +64,19 @@ impl Engine {
         screens: Option<&mut BatchScreens<u16>>,
     ) -> Result<&[FrameOutcome], EngineError> {
         let frames = check_frames(&self.camera, frames, stride)?;
-        let Self { camera, workers, lanes, outcome, batch_outcomes: outcomes, .. } = self;
-        match lanes {
-            LaneCore::Words(core) => {
+        let Self { camera, workers, core, outcome, batch_outcomes: outcomes, .. } = self;
+        match core {
+            EngineCore::Words(core) => {
                 resize_outcomes(outcomes, camera, frames.len());
                 step_groups(core, workers, &frames, outcome, (outcomes, screens));
             }
-            LaneCore::Bytes(_) => return Err(self.wrong_lanes("u8", "u16")),
+            EngineCore::Bytes(_) => return Err(self.wrong_pixel_type("u8", "u16")),
         }
         Ok(&self.batch_outcomes[..frames.len()])
     }
 }
 
-fn check_frames<'a, T: PixelLane>(
+fn check_frames<'a, T: VectorPixel>(
     camera: &Camera,
     frames: &[&'a [T]],
     stride: usize,
@@ -95,8 +95,8 @@ fn resize_outcomes(outcomes: &mut Vec<FrameOutcome>, camera: &Camera, frames: us
 }
 
 /// Takes the frames through the engine, as many at a time as fit into the cache.
-fn step_groups<T: PixelLane>(
-    core: &mut LaneEngine<T>,
+fn step_groups<T: VectorPixel>(
+    core: &mut TypedEngine<T>,
     workers: &Workers,
     frames: &[BorrowedFrame<'_, T>],
     outcome: &mut FrameOutcome,

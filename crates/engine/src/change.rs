@@ -6,7 +6,7 @@
 use crate::pixels::BorrowedFrame;
 use crate::plan::CameraPlan;
 use crate::policy::SearchStep;
-use foveate_pixels::lanes::{BLOCK_LANES, PixelLane, VectorTask};
+use foveate_pixels::vectors::{BLOCK_LENGTH, VectorPixel, VectorTask};
 use std::ops::Range;
 
 /// The share of a band's blocks, as a fraction, above which the whole band is computed.
@@ -15,7 +15,7 @@ const WHOLE_BAND_SHARE: (usize, usize) = (4, 5);
 /// Compares band `number` with its copy of the last frame, updates the copy, and sets `changed` for
 /// every region in which a pixel differs.
 #[inline(always)]
-pub(crate) fn compare_and_update_copy<T: PixelLane>(
+pub(crate) fn compare_and_update_copy<T: VectorPixel>(
     plan: &CameraPlan<T>,
     raw: BorrowedFrame<'_, T>,
     number: usize,
@@ -40,7 +40,7 @@ pub(crate) fn compare_and_update_copy<T: PixelLane>(
 /// Compares band `number` of two frames, and sets `changed` for every region in which a pixel
 /// differs.
 #[inline(always)]
-pub(crate) fn compare_frames<T: PixelLane>(
+pub(crate) fn compare_frames<T: VectorPixel>(
     plan: &CameraPlan<T>,
     [last, current]: [BorrowedFrame<'_, T>; 2],
     number: usize,
@@ -61,7 +61,7 @@ pub(crate) fn compare_frames<T: PixelLane>(
 
 /// Copies band `number`.
 #[inline(always)]
-pub(crate) fn copy_band<T: PixelLane>(
+pub(crate) fn copy_band<T: VectorPixel>(
     plan: &CameraPlan<T>,
     raw: BorrowedFrame<'_, T>,
     number: usize,
@@ -73,7 +73,7 @@ pub(crate) fn copy_band<T: PixelLane>(
 }
 
 #[inline(always)]
-fn compare_row<T: PixelLane>(current: &[T], last: &[T], side: usize, changed: &mut [bool]) {
+fn compare_row<T: VectorPixel>(current: &[T], last: &[T], side: usize, changed: &mut [bool]) {
     match side {
         8 => compare_constant::<8, T>(current, last, changed),
         16 => compare_constant::<16, T>(current, last, changed),
@@ -84,7 +84,7 @@ fn compare_row<T: PixelLane>(current: &[T], last: &[T], side: usize, changed: &m
 }
 
 #[inline(always)]
-fn compare_constant<const SIDE: usize, T: PixelLane>(
+fn compare_constant<const SIDE: usize, T: VectorPixel>(
     current: &[T],
     last: &[T],
     changed: &mut [bool],
@@ -99,7 +99,7 @@ fn compare_constant<const SIDE: usize, T: PixelLane>(
 }
 
 #[inline(always)]
-fn compare_any<T: PixelLane>(current: &[T], last: &[T], side: usize, changed: &mut [bool]) {
+fn compare_any<T: VectorPixel>(current: &[T], last: &[T], side: usize, changed: &mut [bool]) {
     for ((current, last), changed) in current.chunks(side).zip(last.chunks(side)).zip(changed) {
         *changed |= current != last;
     }
@@ -110,7 +110,7 @@ fn compare_any<T: PixelLane>(current: &[T], last: &[T], side: usize, changed: &m
 /// around them. One region on each side is enough, because the halo of two pixels is at most one
 /// region wide.
 #[inline(always)]
-pub(crate) fn mark_affected<T: PixelLane>(
+pub(crate) fn mark_affected<T: VectorPixel>(
     plan: &CameraPlan<T>,
     [above, here, below]: [&[bool]; 3],
     affected: &mut [bool],
@@ -132,7 +132,7 @@ pub(crate) fn mark_affected<T: PixelLane>(
 /// each side, so runs that lie closer together than that are merged. If nearly all blocks are
 /// needed, one run covers the band.
 #[inline(always)]
-pub(crate) fn collect_runs<T: PixelLane>(
+pub(crate) fn collect_runs<T: VectorPixel>(
     plan: &CameraPlan<T>,
     affected: &[bool],
     runs: &mut Vec<Range<usize>>,
@@ -141,7 +141,7 @@ pub(crate) fn collect_runs<T: PixelLane>(
     let (side, margin) = (plan.side, plan.margin_blocks());
     for (column, _) in affected.iter().enumerate().filter(|(_, affected)| **affected) {
         let (start, end) =
-            (column * side / BLOCK_LANES, ((column + 1) * side).div_ceil(BLOCK_LANES));
+            (column * side / BLOCK_LENGTH, ((column + 1) * side).div_ceil(BLOCK_LENGTH));
         match runs.last_mut() {
             Some(last) if start <= last.end + 2 * margin => last.end = end,
             _ => runs.push(start..end),
@@ -156,7 +156,7 @@ pub(crate) fn collect_runs<T: PixelLane>(
 
 /// A task that finds the changed regions in some bands of a batch of frames.
 #[derive(Debug)]
-pub(crate) struct ChangeSearch<'a, T: PixelLane> {
+pub(crate) struct ChangeSearch<'a, T: VectorPixel> {
     pub(crate) plan: &'a CameraPlan<T>,
     pub(crate) frames: &'a [BorrowedFrame<'a, T>],
     pub(crate) bands: Range<usize>,
@@ -167,7 +167,7 @@ pub(crate) struct ChangeSearch<'a, T: PixelLane> {
     pub(crate) changed_regions: &'a mut [bool],
 }
 
-impl<T: PixelLane> VectorTask for ChangeSearch<'_, T> {
+impl<T: VectorPixel> VectorTask for ChangeSearch<'_, T> {
     #[inline(always)]
     fn run(mut self) {
         let plan = self.plan;
@@ -183,7 +183,7 @@ impl<T: PixelLane> VectorTask for ChangeSearch<'_, T> {
     }
 }
 
-impl<T: PixelLane> ChangeSearch<'_, T> {
+impl<T: VectorPixel> ChangeSearch<'_, T> {
     #[inline(always)]
     fn search_band(&self, band: usize, copy: &mut [T], changed: &mut [bool]) {
         let (plan, frames) = (self.plan, self.frames);
@@ -231,7 +231,7 @@ impl<'a> KnownChanges<'a> {
     /// Returns the changed regions of a frame's band and of the bands above and below it, if they
     /// are known.
     #[inline(always)]
-    pub(crate) fn changed_around<T: PixelLane>(
+    pub(crate) fn changed_around<T: VectorPixel>(
         &self,
         plan: &CameraPlan<T>,
         frame: usize,

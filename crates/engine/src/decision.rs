@@ -12,9 +12,9 @@ use crate::kernel::mad;
 use crate::outcome::RegionResults;
 use crate::plan::CameraPlan;
 use crate::working_memory::RegionSums;
-use foveate_pixels::lanes::PixelLane;
+use foveate_pixels::vectors::VectorPixel;
 
-impl<T: PixelLane> CameraPlan<T> {
+impl<T: VectorPixel> CameraPlan<T> {
     /// Decides every region of one band. Regions that are not affected keep their scores, and their
     /// temporal count follows from the last frame.
     #[inline(always)]

@@ -10,9 +10,9 @@ use crate::kernel::{IsolatedSides, SharedSides, WindowRows, binomial, median, sw
 use crate::pixels::BorrowedFrame;
 use crate::plan::{CameraPlan, SeamMasks};
 use crate::working_memory::{BlockRow, DenoisedRow};
-use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane};
+use foveate_pixels::vectors::{BLOCK_LENGTH, Block, VectorPixel};
 
-impl<T: PixelLane> SeamMasks<T> {
+impl<T: VectorPixel> SeamMasks<T> {
     /// Returns the masks of some blocks.
     #[inline(always)]
     pub(crate) fn masks_of(&self, span: &Range<usize>) -> IsolatedSides<'_, T> {
@@ -29,7 +29,7 @@ const PREFETCH_ROWS: usize = 6;
 /// The denoised rows of one run of blocks, with the padding and the borders that the contract
 /// defines.
 #[derive(Debug)]
-pub(crate) struct Denoiser<'a, T: PixelLane> {
+pub(crate) struct Denoiser<'a, T: VectorPixel> {
     pub(crate) plan: &'a CameraPlan<T>,
     pub(crate) raw: BorrowedFrame<'a, T>,
     pub(crate) sorted: &'a mut [[BlockRow<T>; 3]],
@@ -44,7 +44,7 @@ pub(crate) struct Denoiser<'a, T: PixelLane> {
     pub(crate) run: Range<usize>,
 }
 
-impl<'a, T: PixelLane> Denoiser<'a, T> {
+impl<'a, T: VectorPixel> Denoiser<'a, T> {
     /// Makes rows available: at most a batch and one row on each side of it.
     #[inline(always)]
     pub(crate) fn ensure_rows(&mut self, rows: Range<usize>) {
@@ -121,7 +121,7 @@ impl<'a, T: PixelLane> Denoiser<'a, T> {
     #[inline(always)]
     fn fill_raw(&mut self, y: usize, span: &Range<usize>) {
         let (plan, raw) = (self.plan, self.raw.row(y));
-        let columns = span.start * BLOCK_LANES..(span.end * BLOCK_LANES).min(plan.width);
+        let columns = span.start * BLOCK_LENGTH..(span.end * BLOCK_LENGTH).min(plan.width);
         let pixels = &mut self.rows[y & (self.slots - 1)].pixels;
         pixels.values_mut()[columns.clone()].copy_from_slice(&raw[columns]);
         pixels.repeat_border(plan.width, plan.padded_width());
@@ -169,7 +169,7 @@ impl<'a, T: PixelLane> Denoiser<'a, T> {
     #[inline(always)]
     fn prefetched_blocks(&self, y: usize, span: &Range<usize>) -> &'a [Block<T>] {
         let ahead = self.raw.row(y + PREFETCH_ROWS);
-        blocks_of(ahead, (span.start * BLOCK_LANES).min(self.plan.width))
+        blocks_of(ahead, (span.start * BLOCK_LENGTH).min(self.plan.width))
     }
 
     /// Computes what the filter needs of the columns of the three raw rows around `y`.
@@ -189,7 +189,7 @@ impl<'a, T: PixelLane> Denoiser<'a, T> {
 }
 
 /// Values of the columns of three raw rows.
-trait WindowColumns<T: PixelLane> {
+trait WindowColumns<T: VectorPixel> {
     /// Computes the values of some blocks that begin at a column.
     fn compute_blocks(&mut self, rows: [&[Block<T>]; 3], start: usize);
 
@@ -198,7 +198,7 @@ trait WindowColumns<T: PixelLane> {
 }
 
 /// Sorted columns.
-impl<T: PixelLane> WindowColumns<T> for [BlockRow<T>; 3] {
+impl<T: VectorPixel> WindowColumns<T> for [BlockRow<T>; 3] {
     #[inline(always)]
     fn compute_blocks(&mut self, rows: [&[Block<T>]; 3], start: usize) {
         let count = rows[0].len();
@@ -214,7 +214,7 @@ impl<T: PixelLane> WindowColumns<T> for [BlockRow<T>; 3] {
 }
 
 /// Weighted sums of columns.
-impl<T: PixelLane> WindowColumns<T> for BlockRow<T::ColumnSum> {
+impl<T: VectorPixel> WindowColumns<T> for BlockRow<T::ColumnSum> {
     #[inline(always)]
     fn compute_blocks(&mut self, rows: [&[Block<T>]; 3], start: usize) {
         binomial::sum_columns(rows, self.blocks_at(start, rows[0].len()));
@@ -228,7 +228,7 @@ impl<T: PixelLane> WindowColumns<T> for BlockRow<T::ColumnSum> {
 
 /// Computes the values of the columns of three raw rows, and of their padding.
 #[inline(always)]
-fn compute_all_blocks<T: PixelLane>(
+fn compute_all_blocks<T: VectorPixel>(
     plan: &CameraPlan<T>,
     rows: [&[T]; 3],
     tail: &mut [Block<T>; 3],
@@ -236,13 +236,13 @@ fn compute_all_blocks<T: PixelLane>(
     columns: &mut impl WindowColumns<T>,
 ) {
     let width = plan.width;
-    let whole = span.start..span.end.min(width / BLOCK_LANES);
-    let start = whole.start * BLOCK_LANES;
+    let whole = span.start..span.end.min(width / BLOCK_LENGTH);
+    let start = whole.start * BLOCK_LENGTH;
     columns.compute_blocks(rows.map(|row| &blocks_of(row, start)[..whole.len()]), start);
     if whole.end < span.end {
         // The last block is ragged: it is computed together with pixels before it, or alone if
         // there are none.
-        let start = width.saturating_sub(BLOCK_LANES);
+        let start = width.saturating_sub(BLOCK_LENGTH);
         if start == 0 {
             for (tail, row) in tail.iter_mut().zip(rows) {
                 tail[..width].copy_from_slice(row);

@@ -4,9 +4,9 @@
 use foveate_camera::{Camera, RegionClass};
 use foveate_pixels::Frame;
 
-use crate::lane_engine::{KeptBuffers, LaneEngine};
 use crate::pixels::BorrowedFrame;
 use crate::plan::{CameraPlan, index};
+use crate::typed_engine::{KeptBuffers, TypedEngine};
 use crate::workers::{MAX_THREADS, Workers};
 use crate::{EngineError, FrameOutcome, InstructionSet};
 use foveate_pixels::{ByteFrame, FramePixels};
@@ -32,12 +32,12 @@ impl Default for EngineOptions {
 }
 
 #[derive(Debug)]
-pub(crate) enum LaneCore {
-    Bytes(LaneEngine<u8>),
-    Words(LaneEngine<u16>),
+pub(crate) enum EngineCore {
+    Bytes(TypedEngine<u8>),
+    Words(TypedEngine<u16>),
 }
 
-impl LaneCore {
+impl EngineCore {
     /// Sets the classes of all regions, which have been checked.
     fn set_classes(&mut self, classes: &[RegionClass]) {
         match self {
@@ -52,7 +52,7 @@ impl LaneCore {
 pub struct Engine {
     pub(crate) camera: Camera,
     pub(crate) workers: Workers,
-    pub(crate) lanes: LaneCore,
+    pub(crate) core: EngineCore,
     pub(crate) outcome: FrameOutcome,
     /// The outcomes of the last batch, followed by unused ones if an earlier batch was longer.
     pub(crate) batch_outcomes: Vec<FrameOutcome>,
@@ -93,23 +93,23 @@ impl Engine {
     }
 
     fn build(camera: &Camera, options: EngineOptions, workers: Workers) -> Self {
-        let mut lanes = if camera.pixel_bits() <= 8 {
-            LaneCore::Bytes(LaneEngine::new(
+        let mut core = if camera.pixel_bits() <= 8 {
+            EngineCore::Bytes(TypedEngine::new(
                 CameraPlan::new(camera),
                 options.skips_identical_regions,
             ))
         } else {
-            LaneCore::Words(LaneEngine::new(
+            EngineCore::Words(TypedEngine::new(
                 CameraPlan::new(camera),
                 options.skips_identical_regions,
             ))
         };
         let outcome = FrameOutcome::new(camera, index(camera.regions()));
-        lanes.set_classes(&camera.configured_classes());
+        core.set_classes(&camera.configured_classes());
         Self {
             camera: camera.clone(),
             workers,
-            lanes,
+            core,
             outcome,
             batch_outcomes: Vec::new(),
             narrowed_pixels: Vec::new(),
@@ -135,7 +135,7 @@ impl Engine {
     /// Returns the errors of [`Camera::check_classes`]. The classes are then unchanged.
     pub fn set_classes(&mut self, classes: &[RegionClass]) -> Result<(), EngineError> {
         self.camera.check_classes(classes)?;
-        self.lanes.set_classes(classes);
+        self.core.set_classes(classes);
         Ok(())
     }
 
@@ -143,18 +143,18 @@ impl Engine {
     /// zones.
     #[must_use]
     pub fn classes(&self) -> &[RegionClass] {
-        match &self.lanes {
-            LaneCore::Bytes(core) => core.classes(),
-            LaneCore::Words(core) => core.classes(),
+        match &self.core {
+            EngineCore::Bytes(core) => core.classes(),
+            EngineCore::Words(core) => core.classes(),
         }
     }
 
     /// Returns the engine to its reset state, with a black screen and without references. The classes
     /// of the regions stay.
     pub fn reset(&mut self) {
-        match &mut self.lanes {
-            LaneCore::Bytes(core) => core.reset(),
-            LaneCore::Words(core) => core.reset(),
+        match &mut self.core {
+            EngineCore::Bytes(core) => core.reset(),
+            EngineCore::Words(core) => core.reset(),
         }
     }
 
@@ -165,9 +165,9 @@ impl Engine {
     /// # Panics
     /// Panics if the camera has no such region.
     pub fn forget_region(&mut self, region: u32) {
-        match &mut self.lanes {
-            LaneCore::Bytes(core) => core.forget_region(region),
-            LaneCore::Words(core) => core.forget_region(region),
+        match &mut self.core {
+            EngineCore::Bytes(core) => core.forget_region(region),
+            EngineCore::Words(core) => core.forget_region(region),
         }
     }
 
@@ -179,9 +179,9 @@ impl Engine {
     pub fn step(&mut self, frame: &Frame) -> Result<&FrameOutcome, EngineError> {
         self.check_size_and_depth((frame.width(), frame.height(), frame.bits()))?;
         let (width, height) = (index(frame.width()), index(frame.height()));
-        let Self { workers, lanes, outcome, narrowed_pixels: narrow, .. } = self;
-        match lanes {
-            LaneCore::Bytes(core) => {
+        let Self { workers, core, outcome, narrowed_pixels: narrow, .. } = self;
+        match core {
+            EngineCore::Bytes(core) => {
                 // Every pixel fits into a byte; a conversion without a way to fail lets the loop
                 // vectorise.
                 let byte = |&pixel: &u16| u8::try_from(pixel).unwrap_or(u8::MAX);
@@ -190,7 +190,7 @@ impl Engine {
                 let raw = BorrowedFrame { values: &narrow[..], stride: width, width, height };
                 core.step(&[raw], workers, outcome, KeptBuffers::none());
             }
-            LaneCore::Words(core) => {
+            EngineCore::Words(core) => {
                 let raw = BorrowedFrame { values: frame.pixels(), stride: width, width, height };
                 core.step(&[raw], workers, outcome, KeptBuffers::none());
             }
@@ -228,15 +228,19 @@ impl Engine {
     /// Fails if the pixels have the wrong type or number, or if one of them is out of range.
     pub fn check_pixels(&self, pixels: FramePixels<'_>) -> Result<(), EngineError> {
         let width = index(self.camera.width());
-        match (&self.lanes, pixels) {
-            (LaneCore::Bytes(_), FramePixels::Bytes(pixels)) => {
+        match (&self.core, pixels) {
+            (EngineCore::Bytes(_), FramePixels::Bytes(pixels)) => {
                 BorrowedFrame::new_checked(&self.camera, pixels, width).map(|_| ())
             }
-            (LaneCore::Words(_), FramePixels::Words(pixels)) => {
+            (EngineCore::Words(_), FramePixels::Words(pixels)) => {
                 BorrowedFrame::new_checked(&self.camera, pixels, width).map(|_| ())
             }
-            (LaneCore::Bytes(_), FramePixels::Words(_)) => Err(self.wrong_lanes("u8", "u16")),
-            (LaneCore::Words(_), FramePixels::Bytes(_)) => Err(self.wrong_lanes("u16", "u8")),
+            (EngineCore::Bytes(_), FramePixels::Words(_)) => {
+                Err(self.wrong_pixel_type("u8", "u16"))
+            }
+            (EngineCore::Words(_), FramePixels::Bytes(_)) => {
+                Err(self.wrong_pixel_type("u16", "u8"))
+            }
         }
     }
 
@@ -259,10 +263,10 @@ impl Engine {
     /// Fails if the pixels are not a frame of the camera. The state is unchanged then.
     pub fn step_u8(&mut self, pixels: &[u8], stride: usize) -> Result<&FrameOutcome, EngineError> {
         let raw = BorrowedFrame::new_checked(&self.camera, pixels, stride)?;
-        let Self { workers, lanes, outcome, .. } = self;
-        match lanes {
-            LaneCore::Bytes(core) => core.step(&[raw], workers, outcome, KeptBuffers::none()),
-            LaneCore::Words(_) => return Err(self.wrong_lanes("u16", "u8")),
+        let Self { workers, core, outcome, .. } = self;
+        match core {
+            EngineCore::Bytes(core) => core.step(&[raw], workers, outcome, KeptBuffers::none()),
+            EngineCore::Words(_) => return Err(self.wrong_pixel_type("u16", "u8")),
         }
         Ok(&self.outcome)
     }
@@ -278,16 +282,20 @@ impl Engine {
         stride: usize,
     ) -> Result<&FrameOutcome, EngineError> {
         let raw = BorrowedFrame::new_checked(&self.camera, pixels, stride)?;
-        let Self { workers, lanes, outcome, .. } = self;
-        match lanes {
-            LaneCore::Words(core) => core.step(&[raw], workers, outcome, KeptBuffers::none()),
-            LaneCore::Bytes(_) => return Err(self.wrong_lanes("u8", "u16")),
+        let Self { workers, core, outcome, .. } = self;
+        match core {
+            EngineCore::Words(core) => core.step(&[raw], workers, outcome, KeptBuffers::none()),
+            EngineCore::Bytes(_) => return Err(self.wrong_pixel_type("u8", "u16")),
         }
         Ok(&self.outcome)
     }
 
-    pub(crate) fn wrong_lanes(&self, expected: &'static str, given: &'static str) -> EngineError {
-        EngineError::LaneWidth { bits: self.camera.pixel_bits(), expected, given }
+    pub(crate) fn wrong_pixel_type(
+        &self,
+        expected: &'static str,
+        given: &'static str,
+    ) -> EngineError {
+        EngineError::PixelWidth { bits: self.camera.pixel_bits(), expected, given }
     }
 
     /// Returns the outcome of the last frame.
@@ -299,9 +307,9 @@ impl Engine {
     /// Returns the screen after the last frame.
     #[must_use]
     pub fn rendered(&self) -> FramePixels<'_> {
-        match &self.lanes {
-            LaneCore::Bytes(core) => FramePixels::Bytes(&core.screen),
-            LaneCore::Words(core) => FramePixels::Words(&core.screen),
+        match &self.core {
+            EngineCore::Bytes(core) => FramePixels::Bytes(&core.screen),
+            EngineCore::Words(core) => FramePixels::Words(&core.screen),
         }
     }
 
@@ -311,9 +319,9 @@ impl Engine {
     /// # Panics
     /// Panics if the camera has no such region.
     pub fn denoised_region(&self, region: u32, pixels: &mut Vec<u16>) {
-        match &self.lanes {
-            LaneCore::Bytes(core) => core.denoised_region(region, pixels),
-            LaneCore::Words(core) => core.denoised_region(region, pixels),
+        match &self.core {
+            EngineCore::Bytes(core) => core.denoised_region(region, pixels),
+            EngineCore::Words(core) => core.denoised_region(region, pixels),
         }
     }
 
@@ -323,9 +331,9 @@ impl Engine {
     /// # Panics
     /// Panics if the camera has no such region.
     pub fn summary(&self, region: u32, means: &mut Vec<u16>) {
-        match &self.lanes {
-            LaneCore::Bytes(core) => core.summary(region, means),
-            LaneCore::Words(core) => core.summary(region, means),
+        match &self.core {
+            EngineCore::Bytes(core) => core.summary(region, means),
+            EngineCore::Words(core) => core.summary(region, means),
         }
     }
 }

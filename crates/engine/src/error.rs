@@ -24,7 +24,7 @@ pub enum EngineError {
     PixelRange { x: usize, y: usize, value: u64, bits: u32, max: u32 },
     /// The pixels have the wrong type for the camera's depth.
     #[error("pixels of {bits} bits need the type {expected}, but {given} was given")]
-    LaneWidth { bits: u32, expected: &'static str, given: &'static str },
+    PixelWidth { bits: u32, expected: &'static str, given: &'static str },
     /// One frame of a batch is refused.
     #[error("frame {number} of the batch: {error}")]
     BatchFrame { number: usize, error: Box<EngineError> },

@@ -5,11 +5,11 @@
 use foveate_camera::{FeatureKind, SpatialFeature};
 
 use crate::kernel::segment::SegmentPlan;
-use foveate_pixels::lanes::{PixelLane, saturated_threshold};
+use foveate_pixels::vectors::{VectorPixel, saturated_threshold};
 
 /// The passes over the pixels of a band that the features need.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct FeaturePasses<T: PixelLane> {
+pub(crate) struct FeaturePasses<T: VectorPixel> {
     /// Half of the level of `edge`.
     pub(crate) edge: Option<T::Signed>,
     /// The level of `corner`.
@@ -44,7 +44,7 @@ pub(crate) fn feature_plans(features: &[SpatialFeature]) -> Vec<FeaturePlan> {
     features.iter().map(plan).collect()
 }
 
-impl<T: PixelLane> FeaturePasses<T> {
+impl<T: VectorPixel> FeaturePasses<T> {
     /// Returns the passes that the features need, with the levels of the features.
     pub(crate) fn from_features(features: &[SpatialFeature]) -> Self {
         let mut passes = Self {
@@ -86,7 +86,7 @@ impl<T: PixelLane> FeaturePasses<T> {
 }
 
 /// Converts an edge level to half of it, rounded down, at most 3 * 65535.
-fn half_level<S: TryFrom<u32> + From<T>, T: PixelLane<Signed = S>>(level: u32) -> S {
+fn half_level<S: TryFrom<u32> + From<T>, T: VectorPixel<Signed = S>>(level: u32) -> S {
     let half = S::try_from(level / 2);
     half.unwrap_or_else(|_| {
         unreachable!("a level is at most that of the largest gradient, not {level}")

@@ -5,7 +5,7 @@
 //! The model defines the results; this crate only makes them fast:
 //! - It makes one fused pass over a band of regions while the band is in the cache. A chain of
 //!   whole-frame operations would go through memory once per step.
-//! - It has plain loops over fixed blocks of lanes, compiled for several instruction sets. The best
+//! - It has plain loops over fixed blocks of elements, compiled for several instruction sets. The best
 //!   one for the processor is chosen at run time.
 //! - It shares bands among threads; the results do not depend on the number of threads. Several
 //!   frames can be given to one call, [`Engine::step_batch_u8`].
@@ -22,8 +22,6 @@ mod error;
 mod events;
 mod feature_passes;
 mod kernel;
-mod lane_engine;
-mod lane_levels;
 mod outcome;
 mod periphery;
 mod pixels;
@@ -34,13 +32,15 @@ mod sent_values;
 mod state_access;
 mod state_copy;
 mod strip;
+mod typed_engine;
+mod vector_levels;
 mod workers;
 mod working_memory;
 
 pub use engine::{Engine, EngineOptions};
 pub use error::EngineError;
 pub use events::{EventColumn, EventColumnType, EventFrame, EventTable, EventValue};
-pub use foveate_pixels::lanes::InstructionSet;
+pub use foveate_pixels::vectors::InstructionSet;
 pub use outcome::FrameOutcome;
 pub use receiver::{BatchScreens, Receiver};
 pub use state_copy::RegionStateBefore;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The summaries of irrelevant regions: means of blocks, the decision which of them are sent,
-//! and their place on the screen. The level of each lane, which is the same one for all lanes
+//! and their place on the screen. The level of each element, which is the same one for all elements
 //! unless regions have classes.
 
 use crate::outcome::RegionResults;
 use foveate_camera::RegionAction;
-use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane};
+use foveate_pixels::vectors::{BLOCK_LENGTH, Block, VectorPixel};
 
 /// The geometry of summaries. A region has q x q blocks of b x b pixels; `blocks` is q and `side`
 /// is b.
@@ -43,7 +43,7 @@ pub(crate) struct SentSummaries<'a, T> {
     pub(crate) means: &'a mut [T],
 }
 
-impl<T: PixelLane> PeripheryPlan<T> {
+impl<T: VectorPixel> PeripheryPlan<T> {
     /// Computes the means of a row of blocks from the sums of their columns.
     #[inline(always)]
     pub(crate) fn compute_means(&self, columns: &[T::ColumnSum], means: &mut [T]) {
@@ -168,17 +168,17 @@ fn show_constant<const SIDE: usize, T: Copy>(means: &[T], row: &mut [T]) {
 
 /// Returns the sum of a block, at most 4096 pixels, from the sums of its columns.
 #[inline(always)]
-fn sum<T: PixelLane>(columns: &[T::ColumnSum]) -> u32 {
+fn sum<T: VectorPixel>(columns: &[T::ColumnSum]) -> u32 {
     columns.iter().map(|&column| -> u32 { column.into() }).sum()
 }
 
-/// The levels of the lanes of a run of blocks.
+/// The levels of the elements of a run of blocks.
 pub(crate) trait BlockLevels<V>: Copy {
-    /// Returns the level of lane `i` of block `at`.
+    /// Returns the level of element `i` of block `at`.
     fn level(self, at: usize, i: usize) -> V;
 }
 
-/// One level for all lanes.
+/// One level for all elements.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct UniformLevel<V>(pub(crate) V);
 
@@ -192,7 +192,7 @@ impl<V: Copy> BlockLevels<V> for UniformLevel<V> {
 impl<V: Copy> BlockLevels<V> for &[Block<V>] {
     #[inline(always)]
     fn level(self, at: usize, i: usize) -> V {
-        debug_assert!(i < BLOCK_LANES, "a block has {BLOCK_LANES} lanes");
+        debug_assert!(i < BLOCK_LENGTH, "a block has {BLOCK_LENGTH} elements");
         self[at][i]
     }
 }

@@ -6,7 +6,7 @@ use foveate_camera::Camera;
 
 use crate::EngineError;
 use crate::plan::index;
-use foveate_pixels::lanes::PixelLane;
+use foveate_pixels::vectors::VectorPixel;
 
 /// A borrowed frame of `width` x `height` pixels.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +25,7 @@ impl<'a, T> BorrowedFrame<'a, T> {
     }
 }
 
-impl<'a, T: PixelLane> BorrowedFrame<'a, T> {
+impl<'a, T: VectorPixel> BorrowedFrame<'a, T> {
     pub(crate) fn new_checked(
         camera: &Camera,
         values: &'a [T],

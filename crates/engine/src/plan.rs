@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A camera in the form that the kernels need: geometry as indices, thresholds as lanes. The
+//! A camera in the form that the kernels need: geometry as indices, thresholds as vectors. The
 //! thresholds of the classes of regions, in the form that the kernels need.
 
 use crate::feature_passes::{FeaturePasses, FeaturePlan, feature_plans};
@@ -8,7 +8,7 @@ use foveate_camera::{
     Camera, DenoiseFilter, IrrelevantRendering, Neighborhood, Payload, Periphery, ReferencePolicy,
     RegionClass, SpatialFeature, VoteCombination,
 };
-use foveate_pixels::lanes::{AlignedBuffer, BLOCK_LANES, PixelLane, saturated_threshold};
+use foveate_pixels::vectors::{AlignedBuffer, BLOCK_LENGTH, VectorPixel, saturated_threshold};
 use std::ops::Range;
 
 /// The number of blocks in a batch of rows.
@@ -16,7 +16,7 @@ const BATCH_BLOCKS: usize = 32;
 
 /// The parameters of a camera for the kernels.
 #[derive(Clone, Debug)]
-pub(crate) struct CameraPlan<T: PixelLane> {
+pub(crate) struct CameraPlan<T: VectorPixel> {
     /// The frame width without padding.
     pub(crate) width: usize,
     /// The frame height without padding.
@@ -50,16 +50,16 @@ pub(crate) struct CameraPlan<T: PixelLane> {
 
 /// Two masks in which every bit is set in the first and in the last column of each region.
 #[derive(Clone, Debug)]
-pub(crate) struct SeamMasks<T: PixelLane> {
+pub(crate) struct SeamMasks<T: VectorPixel> {
     pub(crate) first: AlignedBuffer<T>,
     pub(crate) last: AlignedBuffer<T>,
 }
 
-impl<T: PixelLane> CameraPlan<T> {
+impl<T: VectorPixel> CameraPlan<T> {
     pub(crate) fn new(camera: &Camera) -> Self {
         let side = index(camera.region_size());
         let columns = index(camera.columns());
-        let blocks = (columns * side).div_ceil(BLOCK_LANES);
+        let blocks = (columns * side).div_ceil(BLOCK_LENGTH);
         Self {
             width: index(camera.width()),
             height: index(camera.height()),
@@ -102,7 +102,7 @@ impl<T: PixelLane> CameraPlan<T> {
 
     /// Returns the number of values from one padded row to the next.
     pub(crate) fn stride(&self) -> usize {
-        self.blocks * BLOCK_LANES
+        self.blocks * BLOCK_LENGTH
     }
 
     /// Returns the index of the first pixel of a region in a padded frame.
@@ -158,14 +158,14 @@ impl<T: PixelLane> CameraPlan<T> {
     pub(crate) fn margin_blocks(&self) -> usize {
         // With isolated neighborhoods and regions that do not cross the ends of blocks, no window
         // reaches beyond the run.
-        usize::from(self.seams.is_none() || !BLOCK_LANES.is_multiple_of(self.side))
+        usize::from(self.seams.is_none() || !BLOCK_LENGTH.is_multiple_of(self.side))
     }
 
     /// Returns the range of columns of summary blocks, `side` pixels wide, that lie completely
     /// within a run.
     pub(crate) fn blocks_under(&self, side: usize, run: &Range<usize>) -> Range<usize> {
         let (start, end) =
-            (run.start * BLOCK_LANES, (run.end * BLOCK_LANES).min(self.padded_width()));
+            (run.start * BLOCK_LENGTH, (run.end * BLOCK_LENGTH).min(self.padded_width()));
         start.div_ceil(side)..(end / side).max(start.div_ceil(side))
     }
 
@@ -187,7 +187,7 @@ impl<T: PixelLane> CameraPlan<T> {
     }
 }
 
-fn periphery_plan<T: PixelLane>(periphery: &Periphery) -> PeripheryPlan<T> {
+fn periphery_plan<T: VectorPixel>(periphery: &Periphery) -> PeripheryPlan<T> {
     PeripheryPlan {
         blocks: index(periphery.blocks),
         side: index(periphery.block_side),
@@ -197,12 +197,12 @@ fn periphery_plan<T: PixelLane>(periphery: &Periphery) -> PeripheryPlan<T> {
     }
 }
 
-impl<T: PixelLane> SeamMasks<T> {
+impl<T: VectorPixel> SeamMasks<T> {
     fn new(side: usize, blocks: usize) -> Self {
         let mask = |column: usize| {
-            let mut mask = AlignedBuffer::<T>::new(blocks * BLOCK_LANES);
-            for (x, lane) in mask.iter_mut().enumerate() {
-                *lane = if x % side == column { T::MAX } else { T::default() };
+            let mut mask = AlignedBuffer::<T>::new(blocks * BLOCK_LENGTH);
+            for (x, element) in mask.iter_mut().enumerate() {
+                *element = if x % side == column { T::MAX } else { T::default() };
             }
             mask
         };
@@ -217,13 +217,13 @@ pub(crate) const fn index(value: u32) -> usize {
 }
 
 /// Converts a pixel to a word. Every pixel fits.
-fn word<T: PixelLane>(pixel: T) -> u16 {
+fn word<T: VectorPixel>(pixel: T) -> u16 {
     u16::try_from(pixel.into()).unwrap_or(u16::MAX)
 }
 
 /// The thresholds of the classes of regions that differ from those of the camera.
 #[derive(Clone, Debug)]
-pub(crate) struct ZonePlan<T: PixelLane> {
+pub(crate) struct ZonePlan<T: VectorPixel> {
     /// The passes with the levels of keen regions. They are the same passes as those of the camera.
     pub(crate) keen_passes: FeaturePasses<T>,
     /// The features with the minimum scores of keen regions.
@@ -235,7 +235,7 @@ pub(crate) struct ZonePlan<T: PixelLane> {
     off_summary_level: T,
 }
 
-impl<T: PixelLane> ZonePlan<T> {
+impl<T: VectorPixel> ZonePlan<T> {
     /// Returns the thresholds of a camera, or `None` if it has no zones.
     pub(crate) fn from_camera(camera: &Camera) -> Option<Self> {
         camera.zones()?;

@@ -13,22 +13,22 @@ use crate::pixels::BorrowedFrame;
 use crate::plan::CameraPlan;
 use foveate_camera::{Camera, Payload, ReferencePolicy, RegionAction};
 use foveate_pixels::FramePixels;
-use foveate_pixels::lanes::PixelLane;
+use foveate_pixels::vectors::VectorPixel;
 
 /// A screen, and the pixels and means that were received for the next frame.
 #[derive(Debug)]
 pub struct Receiver {
-    state: ReceiverLanes,
+    state: ReceiverCore,
 }
 
 #[derive(Debug)]
-enum ReceiverLanes {
+enum ReceiverCore {
     Bytes(ReceiverState<u8>),
     Words(ReceiverState<u16>),
 }
 
 #[derive(Debug)]
-struct ReceiverState<T: PixelLane> {
+struct ReceiverState<T: VectorPixel> {
     plan: CameraPlan<T>,
     /// The pixels that were received last, in a padded frame.
     pixels: Vec<T>,
@@ -44,9 +44,9 @@ impl Receiver {
     #[must_use]
     pub fn new(camera: &Camera) -> Self {
         let state = if camera.pixel_bits() <= 8 {
-            ReceiverLanes::Bytes(ReceiverState::new(camera))
+            ReceiverCore::Bytes(ReceiverState::new(camera))
         } else {
-            ReceiverLanes::Words(ReceiverState::new(camera))
+            ReceiverCore::Words(ReceiverState::new(camera))
         };
         Self { state }
     }
@@ -54,8 +54,8 @@ impl Receiver {
     /// Makes the screen black.
     pub fn reset(&mut self) {
         match &mut self.state {
-            ReceiverLanes::Bytes(state) => state.reset(),
-            ReceiverLanes::Words(state) => state.reset(),
+            ReceiverCore::Bytes(state) => state.reset(),
+            ReceiverCore::Words(state) => state.reset(),
         }
     }
 
@@ -63,8 +63,8 @@ impl Receiver {
     /// and values that are too large lose their high bits.
     pub fn take_pixels(&mut self, region: u32, pixels: &[u16]) {
         match &mut self.state {
-            ReceiverLanes::Bytes(state) => state.take_pixels(region, pixels),
-            ReceiverLanes::Words(state) => state.take_pixels(region, pixels),
+            ReceiverCore::Bytes(state) => state.take_pixels(region, pixels),
+            ReceiverCore::Words(state) => state.take_pixels(region, pixels),
         }
     }
 
@@ -72,16 +72,16 @@ impl Receiver {
     /// pixels.
     pub fn take_means(&mut self, region: u32, means: &[u16]) {
         match &mut self.state {
-            ReceiverLanes::Bytes(state) => state.take_means(region, means),
-            ReceiverLanes::Words(state) => state.take_means(region, means),
+            ReceiverCore::Bytes(state) => state.take_means(region, means),
+            ReceiverCore::Words(state) => state.take_means(region, means),
         }
     }
 
     /// Applies the action of every region, numbered row by row.
     pub fn show(&mut self, actions: &[RegionAction]) {
         match &mut self.state {
-            ReceiverLanes::Bytes(state) => state.show(actions),
-            ReceiverLanes::Words(state) => state.show(actions),
+            ReceiverCore::Bytes(state) => state.show(actions),
+            ReceiverCore::Words(state) => state.show(actions),
         }
     }
 
@@ -89,13 +89,13 @@ impl Receiver {
     #[must_use]
     pub fn rendered(&self) -> FramePixels<'_> {
         match &self.state {
-            ReceiverLanes::Bytes(state) => FramePixels::Bytes(&state.screen),
-            ReceiverLanes::Words(state) => FramePixels::Words(&state.screen),
+            ReceiverCore::Bytes(state) => FramePixels::Bytes(&state.screen),
+            ReceiverCore::Words(state) => FramePixels::Words(&state.screen),
         }
     }
 }
 
-impl<T: PixelLane> ReceiverState<T> {
+impl<T: VectorPixel> ReceiverState<T> {
     fn new(camera: &Camera) -> Self {
         // Received pixels are shown unchanged, and no reference is needed.
         let plan = CameraPlan {
@@ -166,7 +166,7 @@ impl<T: PixelLane> ReceiverState<T> {
 }
 
 /// Writes values into a plane, in rows of `width`.
-fn write_rows<T: PixelLane>(plane: &mut [T], stride: usize, values: &[u16], width: usize) {
+fn write_rows<T: VectorPixel>(plane: &mut [T], stride: usize, values: &[u16], width: usize) {
     for (row, to) in values.chunks(width).zip(plane.chunks_mut(stride)) {
         for (to, &value) in to.iter_mut().zip(row) {
             *to = T::from_low_bits(value.into());
@@ -188,7 +188,7 @@ pub(crate) struct BandRenderer<'a, T> {
     pub(crate) means: &'a [T],
 }
 
-impl<T: PixelLane> BandRenderer<'_, T> {
+impl<T: VectorPixel> BandRenderer<'_, T> {
     /// Applies the action of every region of band `number`.
     #[inline(always)]
     pub(crate) fn apply_actions(
@@ -250,7 +250,7 @@ const LONG_COPY_PIXELS: usize = 64;
 /// Copies band `number` of the screen to a kept screen. `black` and `kept_black` tell which regions
 /// of the two screens are black; a region that is black on both is not written.
 #[inline(always)]
-pub(crate) fn keep_screen_band<T: PixelLane>(
+pub(crate) fn keep_screen_band<T: VectorPixel>(
     plan: &CameraPlan<T>,
     number: usize,
     (screen, black): (&[T], &[bool]),
@@ -279,7 +279,7 @@ pub(crate) fn keep_screen_band<T: PixelLane>(
 
 /// Sets `width` x `height` values of a plane to zero.
 #[inline(always)]
-fn clear<T: PixelLane>(plane: &mut [T], stride: usize, width: usize, height: usize) {
+fn clear<T: VectorPixel>(plane: &mut [T], stride: usize, width: usize, height: usize) {
     for y in 0..height {
         plane[y * stride..][..width].fill(T::default());
     }
@@ -365,7 +365,7 @@ impl<T> BatchScreens<T> {
 }
 
 /// Returns one screen per frame, to be written.
-pub(crate) fn resize_screens<'a, T: PixelLane>(
+pub(crate) fn resize_screens<'a, T: VectorPixel>(
     screens: &'a mut BatchScreens<T>,
     plan: &CameraPlan<T>,
     frames: usize,

@@ -3,7 +3,7 @@
 //! explain its outcome. They are made only if the caller asks for them.
 
 use foveate_camera::ReferencePolicy;
-use foveate_pixels::lanes::PixelLane;
+use foveate_pixels::vectors::VectorPixel;
 
 use crate::plan::CameraPlan;
 
@@ -39,7 +39,7 @@ pub(crate) struct EngineState<'a, T> {
     pub(crate) screen: &'a [T],
 }
 
-impl<T: PixelLane> StateCopy<T> {
+impl<T: VectorPixel> StateCopy<T> {
     pub(crate) fn copy_from(&mut self, plan: &CameraPlan<T>, known: &EngineState<'_, T>) {
         let reference = match plan.reference {
             ReferencePolicy::Previous => known.denoised,

@@ -18,7 +18,7 @@ use crate::periphery::{CurrentMeans, SentSummaries};
 use crate::pixels::BorrowedFrame;
 use crate::plan::CameraPlan;
 use crate::working_memory::WorkingMemory;
-use foveate_pixels::{lanes::PixelLane, lanes::VectorTask};
+use foveate_pixels::{vectors::VectorPixel, vectors::VectorTask};
 
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct SkippedWork {
@@ -47,7 +47,7 @@ pub(crate) struct KeptStripResults<'a, T> {
 
 /// A task that takes a batch of frames through some bands.
 #[derive(Debug)]
-pub(crate) struct BandStrip<'a, T: PixelLane> {
+pub(crate) struct BandStrip<'a, T: VectorPixel> {
     pub(crate) plan: &'a CameraPlan<T>,
     pub(crate) frames: &'a [BorrowedFrame<'a, T>],
     pub(crate) bands: Range<usize>,
@@ -77,7 +77,7 @@ pub(crate) struct BandStrip<'a, T: PixelLane> {
     pub(crate) skipped: &'a mut Vec<SkippedWork>,
 }
 
-impl<T: PixelLane> VectorTask for BandStrip<'_, T> {
+impl<T: VectorPixel> VectorTask for BandStrip<'_, T> {
     /// Takes all frames through the strip.
     #[inline(always)]
     fn run(mut self) {
@@ -103,7 +103,7 @@ impl<T: PixelLane> VectorTask for BandStrip<'_, T> {
     }
 }
 
-impl<T: PixelLane> BandStrip<'_, T> {
+impl<T: VectorPixel> BandStrip<'_, T> {
     /// Takes a frame through the strip's band number `row`.
     #[inline(always)]
     fn step_band(&mut self, frame: usize, row: usize) {

@@ -7,7 +7,7 @@
 
 use std::sync::{Mutex, PoisonError};
 
-use foveate_pixels::lanes::{InstructionSet, VectorTask};
+use foveate_pixels::vectors::{InstructionSet, VectorTask};
 
 /// The largest number of threads that an engine takes. More threads than processors gain nothing,
 /// and thousands of threads would keep the system busy.

@@ -6,20 +6,20 @@ use std::ops::Range;
 use crate::kernel::ExtendedRow;
 use crate::kernel::flow::DisplacedErrors;
 use crate::kernel::surface::DISPLACEMENTS;
-use crate::lane_levels::LaneLevels;
 use crate::plan::CameraPlan;
+use crate::vector_levels::VectorLevels;
 use foveate_pixels::{
-    lanes::AlignedBuffer,
-    lanes::{BLOCK_LANES, Block, PixelLane},
+    vectors::AlignedBuffer,
+    vectors::{BLOCK_LENGTH, Block, VectorPixel},
 };
 
-/// A row with a spare block on each side, so that it can be read shifted by one lane.
+/// A row with a spare block on each side, so that it can be read shifted by one element.
 #[derive(Clone, Debug)]
 pub(crate) struct BlockRow<T: Copy + Default>(AlignedBuffer<T>);
 
 impl<T: Copy + Default> BlockRow<T> {
     fn new(blocks: usize) -> Self {
-        Self(AlignedBuffer::new((blocks + 2) * BLOCK_LANES))
+        Self(AlignedBuffer::new((blocks + 2) * BLOCK_LENGTH))
     }
 
     /// Returns some blocks, to be written.
@@ -31,13 +31,13 @@ impl<T: Copy + Default> BlockRow<T> {
     /// Returns some blocks from any column on, to be written.
     #[inline(always)]
     pub(crate) fn blocks_at(&mut self, start: usize, count: usize) -> &mut [Block<T>] {
-        self.0[BLOCK_LANES + start..][..count * BLOCK_LANES].as_chunks_mut().0
+        self.0[BLOCK_LENGTH + start..][..count * BLOCK_LENGTH].as_chunks_mut().0
     }
 
     /// Returns the values from column 0 on, to be written.
     #[inline(always)]
     pub(crate) fn values_mut(&mut self) -> &mut [T] {
-        &mut self.0[BLOCK_LANES..]
+        &mut self.0[BLOCK_LENGTH..]
     }
 
     /// Returns some blocks.
@@ -46,34 +46,34 @@ impl<T: Copy + Default> BlockRow<T> {
         &self.0.blocks()[1 + span.start..1 + span.end]
     }
 
-    /// Returns some blocks with one more lane on each side.
+    /// Returns some blocks with one more element on each side.
     #[inline(always)]
     pub(crate) fn blocks_with_neighbors(&self, span: &Range<usize>) -> ExtendedRow<'_, T> {
-        &self.0[(1 + span.start) * BLOCK_LANES - 1..=(1 + span.end) * BLOCK_LANES]
+        &self.0[(1 + span.start) * BLOCK_LENGTH - 1..=(1 + span.end) * BLOCK_LENGTH]
     }
 
     /// Returns blocks whose columns lie `shift` columns, at most a block, before those of `span`.
     #[inline(always)]
     pub(crate) fn shifted_blocks(&self, span: &Range<usize>, shift: i8) -> &[Block<T>] {
-        let start = ((1 + span.start) * BLOCK_LANES).saturating_add_signed(-isize::from(shift));
-        self.0[start..][..span.len() * BLOCK_LANES].as_chunks().0
+        let start = ((1 + span.start) * BLOCK_LENGTH).saturating_add_signed(-isize::from(shift));
+        self.0[start..][..span.len() * BLOCK_LENGTH].as_chunks().0
     }
 
     /// Repeats the border pixels of a row of `width` pixels outwards.
     #[inline(always)]
     pub(crate) fn repeat_border(&mut self, width: usize, padded: usize) {
         let values = &mut self.0[..];
-        values[BLOCK_LANES - 1] = values[BLOCK_LANES];
-        let last = values[BLOCK_LANES + width - 1];
-        values[BLOCK_LANES + padded] = last;
+        values[BLOCK_LENGTH - 1] = values[BLOCK_LENGTH];
+        let last = values[BLOCK_LENGTH + width - 1];
+        values[BLOCK_LENGTH + padded] = last;
         if padded > width {
-            values[BLOCK_LANES + width..BLOCK_LANES + padded].fill(last);
+            values[BLOCK_LENGTH + width..BLOCK_LENGTH + padded].fill(last);
         }
     }
 }
 
 #[derive(Clone, Debug)]
-pub(crate) struct DenoisedRow<T: PixelLane> {
+pub(crate) struct DenoisedRow<T: VectorPixel> {
     /// The row of the current frame and the run of blocks that are in `pixels`.
     pub(crate) row_and_run: Option<(usize, Range<usize>)>,
     pub(crate) pixels: BlockRow<T>,
@@ -81,7 +81,7 @@ pub(crate) struct DenoisedRow<T: PixelLane> {
 
 /// The sums and extremes of the columns of one band.
 #[derive(Clone, Debug)]
-pub(crate) struct ColumnSums<T: PixelLane> {
+pub(crate) struct ColumnSums<T: VectorPixel> {
     pub(crate) changed: AlignedBuffer<T>,
     pub(crate) edge: AlignedBuffer<T>,
     pub(crate) corner: AlignedBuffer<T>,
@@ -117,7 +117,7 @@ pub(crate) struct RegionSums {
 }
 
 #[derive(Clone, Debug)]
-pub(crate) struct WorkingMemory<T: PixelLane> {
+pub(crate) struct WorkingMemory<T: VectorPixel> {
     /// The low, mid and high values of the columns, for each row of a batch.
     pub(crate) sorted: Vec<[BlockRow<T>; 3]>,
     /// The weighted sums of the columns, for each row of a batch.
@@ -128,7 +128,7 @@ pub(crate) struct WorkingMemory<T: PixelLane> {
     pub(crate) denoised: Vec<DenoisedRow<T>>,
     pub(crate) columns: ColumnSums<T>,
     pub(crate) region_sums: RegionSums,
-    pub(crate) levels: LaneLevels<T>,
+    pub(crate) levels: VectorLevels<T>,
     /// The rows of the band's references, for `flow`.
     pub(crate) references: Vec<BlockRow<T>>,
     /// The errors of each displacement of `flow`, in the order of preference.
@@ -147,7 +147,7 @@ pub(crate) struct WorkingMemory<T: PixelLane> {
     pub(crate) affected: Vec<bool>,
 }
 
-impl<T: PixelLane> WorkingMemory<T> {
+impl<T: VectorPixel> WorkingMemory<T> {
     pub(crate) fn new(plan: &CameraPlan<T>) -> Self {
         let (rows, row) = (plan.row_slots(1), || BlockRow::new(plan.blocks));
         let denoised = || DenoisedRow { row_and_run: None, pixels: row() };
@@ -156,7 +156,7 @@ impl<T: PixelLane> WorkingMemory<T> {
         Self {
             sorted: (0..rows).map(|_| [row(), row(), row()]).collect(),
             column_sums: (0..rows).map(|_| BlockRow::new(plan.blocks)).collect(),
-            narrow_window: [[T::default(); BLOCK_LANES]; 3],
+            narrow_window: [[T::default(); BLOCK_LENGTH]; 3],
             denoised: (0..rows).map(|_| denoised()).collect(),
             columns: ColumnSums {
                 changed: AlignedBuffer::new(width),
@@ -185,7 +185,7 @@ impl<T: PixelLane> WorkingMemory<T> {
                 count_above: regions(),
                 segment: [regions(), regions()],
             },
-            levels: LaneLevels::new(plan),
+            levels: VectorLevels::new(plan),
             references: match plan.flow_radius {
                 Some(_) => (0..plan.side).map(|_| row()).collect(),
                 None => Vec::new(),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Compares new values of a tensor with its kept values. The loops run over values that are
-//! neighbors in memory, in vector lanes, because this comparison is the only extra cost of the
+//! neighbors in memory, as vectors, because this comparison is the only extra cost of the
 //! modes that compare.
 
 use super::tensor::TensorForm;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The packets that a camera sends, in the format of `docs/packets.md`.
 //!
-//! A [`PacketLayout`] gives the length of every packet of a design. [`packet_writer`] makes
+//! A [`PacketLayout`] gives the length of every packet of a design. [`packet_encoding`] makes
 //! packets, [`PacketSplitter`] finds them in bytes that may be damaged, and [`FrameAssembler`]
 //! makes frames from them, with a list of losses. The crate accesses no files and does not depend
 //! on the code that computes a frame: `write_packets` of crate `simulator` makes packets of what an
@@ -11,9 +11,9 @@ mod error;
 mod frame_assembler;
 mod frame_info;
 mod packet;
+pub mod packet_encoding;
 mod packet_layout;
 mod packet_splitter;
-pub mod packet_writer;
 mod received_frame;
 mod register_command;
 mod stream_loss;

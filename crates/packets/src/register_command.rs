@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Commands to a core on a serial line. A command is a REGISTER packet, and so is its answer.
 
-use crate::{RegisterPacket, packet_writer};
+use crate::{RegisterPacket, packet_encoding};
 
 /// A command to a board to read or write a register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,7 +24,7 @@ impl RegisterCommand {
     #[must_use]
     pub fn bytes(self) -> Vec<u8> {
         let mut bytes = Vec::new();
-        packet_writer::append_register(&mut bytes, self.0);
+        packet_encoding::append_register(&mut bytes, self.0);
         bytes
     }
 

@@ -14,9 +14,7 @@ pub enum StreamLoss {
         bytes: u64,
     },
     /// The stream begins in the middle of a run, so the screen before it is unknown.
-    Start {
-        frame: u32,
-    },
+    Start { frame: u32 },
     /// Frames without any packet.
     Frames {
         /// The number of the first missing frame.
@@ -25,9 +23,7 @@ pub enum StreamLoss {
         count: u32,
     },
     /// The FRAME of a frame is missing, and with it the time: the frame is not written.
-    Frame {
-        frame: u32,
-    },
+    Frame { frame: u32 },
     /// The decisions of a row of regions are missing.
     Row {
         frame: u32,
@@ -59,18 +55,11 @@ pub enum StreamLoss {
         dropped: bool,
     },
     /// The END of a frame is missing.
-    End {
-        frame: u32,
-    },
+    End { frame: u32 },
     /// Packets contradict others or come too late.
-    Misplaced {
-        frame: u32,
-        count: u32,
-    },
+    Misplaced { frame: u32, count: u32 },
     /// The time of a frame is before that of the previous frame, or too far after it.
-    Time {
-        frame: u32,
-    },
+    Time { frame: u32 },
     /// A FRAME comes from another camera or has another format. It is ignored with all packets up
     /// to the next FRAME of this camera.
     Foreign {

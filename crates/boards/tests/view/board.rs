@@ -5,7 +5,7 @@
 use std::sync::mpsc::{Receiver, channel};
 use std::thread;
 
-use foveate_packets::{RegisterPacket, packet_writer};
+use foveate_packets::{RegisterPacket, packet_encoding};
 use serde_json::Value;
 
 use crate::client::{get, open, wait_for, write};
@@ -25,7 +25,7 @@ fn answer_commands(
             let value =
                 if command.is_write { command.value } else { u32::from(command.address) + 1 };
             let mut bytes = Vec::new();
-            packet_writer::append_register(&mut bytes, RegisterPacket { value, ..command });
+            packet_encoding::append_register(&mut bytes, RegisterPacket { value, ..command });
             line.send(&spoil(number, bytes));
             if sender.send(command).is_err() {
                 return;
@@ -93,7 +93,7 @@ fn a_register_is_read_again_if_its_answer_is_lost_or_of_another_register() {
         }
         1 => {
             let mut other = Vec::new();
-            packet_writer::append_register(
+            packet_encoding::append_register(
                 &mut other,
                 RegisterPacket { address: 0x40, is_write: false, value: 9 },
             );
@@ -120,7 +120,7 @@ fn answers_between_packets_change_no_frame() {
         let asked = line.command();
         line.send(frame);
         let mut bytes = Vec::new();
-        packet_writer::append_register(&mut bytes, RegisterPacket { value: 7, ..asked });
+        packet_encoding::append_register(&mut bytes, RegisterPacket { value: 7, ..asked });
         line.send(&bytes);
         let page = wait_for(view.link(), "frame", |state| state["frames"] == number);
         assert_eq!(page.state["losses"], serde_json::json!({}));

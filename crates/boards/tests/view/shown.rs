@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use foveate_boards::view::PlayMode;
 use foveate_design::DesignConfig;
-use foveate_packets::{PacketLayout, packet_writer};
+use foveate_packets::{PacketLayout, packet_encoding};
 
 use crate::client::{get, link_parts, open, page_after, wait_for};
 use crate::line::SerialLine;
@@ -73,7 +73,8 @@ fn the_version_of_the_map_is_shown_only_with_zones() {
             // The FRAME is replaced by one with another version.
             let start = (u64::from(number) * 33_333, number == 0);
             let mut sent = Vec::new();
-            packet_writer::append_frame_of_map(&mut sent, &layout, number, start, version).unwrap();
+            packet_encoding::append_frame_of_map(&mut sent, &layout, number, start, version)
+                .unwrap();
             sent.extend(&packets[layout.frame_bytes()..]);
             line.send(&sent);
             let page = wait_for(view.link(), "frame", |state| state["frames"] == number + 1);

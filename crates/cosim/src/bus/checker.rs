@@ -15,7 +15,7 @@ use foveate_emit::Register;
 use foveate_model::FunctionalOutcome;
 use foveate_packets::{
     EndPacket, FrameInfo, Packet, PacketLayout, PacketSplitter, RegionDecision, RegionPacket,
-    RowPacket, StreamItem, packet_writer,
+    RowPacket, StreamItem, packet_encoding,
 };
 use std::ops::AddAssign;
 
@@ -623,13 +623,13 @@ fn encode_packet(layout: &PacketLayout, frame: u32, packet: &Packet) -> Vec<u8> 
     let _ = match packet {
         Packet::Frame(info) => {
             let (start, version) = ((info.time, info.first), info.map_version);
-            packet_writer::append_frame_of_map(&mut bytes, layout, frame, start, version)
+            packet_encoding::append_frame_of_map(&mut bytes, layout, frame, start, version)
         }
         Packet::Row(row) => {
-            packet_writer::append_row(&mut bytes, layout, frame, row.row, &row.decisions)
+            packet_encoding::append_row(&mut bytes, layout, frame, row.row, &row.decisions)
         }
         Packet::Region(RegionPacket { row, column, flags, values }) => {
-            packet_writer::append_region(
+            packet_encoding::append_region(
                 &mut bytes,
                 layout,
                 frame,
@@ -637,7 +637,7 @@ fn encode_packet(layout: &PacketLayout, frame: u32, packet: &Packet) -> Vec<u8> 
                 (*flags, values),
             )
         }
-        Packet::End(end) => packet_writer::append_end(&mut bytes, frame, *end),
+        Packet::End(end) => packet_encoding::append_end(&mut bytes, frame, *end),
         // A core sends none of them; the caller reports them.
         Packet::Scores(_) | Packet::Register(_) | Packet::Flow(_) => Ok(()),
     };

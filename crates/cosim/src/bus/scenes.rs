@@ -616,8 +616,8 @@ impl<'a> SceneBuilder<'a> {
 
     /// Returns the number of words of a REGION packet with pixels.
     fn packet_words(&self) -> u32 {
-        let lane = if self.design.pixel_bits() <= 8 { 8 } else { 16 };
-        (self.design.region_size().pow(2) * lane).div_ceil(64) + 2
+        let value_bits = if self.design.pixel_bits() <= 8 { 8 } else { 16 };
+        (self.design.region_size().pow(2) * value_bits).div_ceil(64) + 2
     }
 
     /// Returns the number of clocks in which the pixels of a region come.

@@ -78,8 +78,8 @@ struct PacketSizes {
 
 impl PacketSizes {
     fn of(design: RasterDesign<'_>) -> Self {
-        let lane = lane_bits(design);
-        let values = |count: u32| (count * lane).div_ceil(PACKET_WORD_BITS);
+        let value_bits = value_bits(design);
+        let values = |count: u32| (count * value_bits).div_ceil(PACKET_WORD_BITS);
         let blocks = design.periphery().map(|periphery| periphery.blocks);
         let decision_bits = if blocks.is_some() { 4 } else { 2 };
         Self {
@@ -105,7 +105,7 @@ impl PacketSizes {
 }
 
 /// Returns the number of bits of a pixel in a packet.
-fn lane_bits(design: RasterDesign<'_>) -> u32 {
+fn value_bits(design: RasterDesign<'_>) -> u32 {
     if design.pixel_bits() <= 8 { 8 } else { 16 }
 }
 

@@ -4,18 +4,18 @@
 
 use crate::kernel::{ExtendedRow, WindowSides, extended_block};
 use foveate_pixels::{
-    lanes::prefetch,
-    lanes::{BLOCK_LANES, Block, PixelLane},
+    vectors::prefetch,
+    vectors::{BLOCK_LENGTH, Block, VectorPixel},
 };
 
 /// Computes the weighted sum of the three pixels of every column.
 #[inline(always)]
-pub(crate) fn sum_columns<T: PixelLane>(
+pub(crate) fn sum_columns<T: VectorPixel>(
     [a, b, c]: [&[Block<T>]; 3],
     sums: &mut [Block<T::ColumnSum>],
 ) {
     for (sums, ((a, b), c)) in sums.iter_mut().zip(a.iter().zip(b).zip(c)) {
-        for i in 0..BLOCK_LANES {
+        for i in 0..BLOCK_LENGTH {
             sums[i] = weighted_sum(
                 T::ColumnSum::from(a[i]),
                 T::ColumnSum::from(b[i]),
@@ -28,7 +28,7 @@ pub(crate) fn sum_columns<T: PixelLane>(
 /// Computes the mean of every window from the sums of its columns. Prefetches `ahead`, raw pixels
 /// that will be summed some rows later.
 #[inline(always)]
-pub(crate) fn combine_columns<T: PixelLane>(
+pub(crate) fn combine_columns<T: VectorPixel>(
     sums: ExtendedRow<'_, T::ColumnSum>,
     sides: impl WindowSides<T>,
     ahead: &[Block<T>],
@@ -39,7 +39,7 @@ pub(crate) fn combine_columns<T: PixelLane>(
             prefetch(ahead);
         }
         let sums = extended_block(sums, at);
-        for i in 0..BLOCK_LANES {
+        for i in 0..BLOCK_LENGTH {
             let (left, center, right) = sides.window_sums(sums, at, i);
             out[i] = T::rounded_sixteenth(weighted_sum(left, center, right));
         }

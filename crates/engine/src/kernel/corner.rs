@@ -3,11 +3,11 @@
 
 use crate::kernel::{WindowRows, WindowSides, extended_block};
 use crate::periphery::BlockLevels;
-use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane, best_arc};
+use foveate_pixels::vectors::{BLOCK_LENGTH, Block, VectorPixel, best_arc};
 
-/// Adds one to every lane whose pixel is a corner at its level.
+/// Adds one to every element whose pixel is a corner at its level.
 #[inline(always)]
-pub(crate) fn count_corners<T: PixelLane>(
+pub(crate) fn count_corners<T: VectorPixel>(
     windows: WindowRows<'_, T>,
     sides: impl WindowSides<T>,
     levels: impl BlockLevels<T>,
@@ -18,7 +18,7 @@ pub(crate) fn count_corners<T: PixelLane>(
         let here = extended_block(windows.here, at);
         let below = extended_block(windows.below, at);
         let mut sums = *hits;
-        for i in 0..BLOCK_LANES {
+        for i in 0..BLOCK_LENGTH {
             let (nw, n, ne) = sides.window_row(above, at, i);
             let (w, center, e) = sides.window_row(here, at, i);
             let (sw, s, se) = sides.window_row(below, at, i);

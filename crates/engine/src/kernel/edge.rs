@@ -6,11 +6,11 @@
 
 use crate::kernel::{WindowRows, WindowSides, extended_block};
 use crate::periphery::BlockLevels;
-use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane};
+use foveate_pixels::vectors::{BLOCK_LENGTH, Block, VectorPixel};
 
-/// Adds one to every lane whose window is an edge. `halves` are half of the levels, rounded down.
+/// Adds one to every element whose window is an edge. `halves` are half of the levels, rounded down.
 #[inline(always)]
-pub(crate) fn count_edges<T: PixelLane>(
+pub(crate) fn count_edges<T: VectorPixel>(
     windows: WindowRows<'_, T>,
     sides: impl WindowSides<T>,
     halves: impl BlockLevels<T::Signed>,
@@ -21,7 +21,7 @@ pub(crate) fn count_edges<T: PixelLane>(
         let here = extended_block(windows.here, at);
         let below = extended_block(windows.below, at);
         let mut sums = *hits;
-        for i in 0..BLOCK_LANES {
+        for i in 0..BLOCK_LENGTH {
             let (nw, n, ne) = sides.window_row(above, at, i);
             let (w, _, e) = sides.window_row(here, at, i);
             let (sw, s, se) = sides.window_row(below, at, i);

@@ -5,7 +5,7 @@
 use std::ops::Range;
 
 use foveate_camera::Displacement;
-use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane};
+use foveate_pixels::vectors::{BLOCK_LENGTH, Block, VectorPixel};
 
 /// A displacement and its errors by region.
 #[derive(Clone, Debug)]
@@ -37,13 +37,13 @@ pub(crate) fn paired_range(side: usize, shift: i8) -> Range<usize> {
 }
 
 #[inline(always)]
-pub(crate) fn add_differences<T: PixelLane>(
+pub(crate) fn add_differences<T: VectorPixel>(
     row: &[Block<T>],
     partners: &[Block<T>],
     sums: &mut [Block<T::ColumnSum>],
 ) {
     for ((row, partners), sums) in row.iter().zip(partners).zip(sums) {
-        for i in 0..BLOCK_LANES {
+        for i in 0..BLOCK_LENGTH {
             sums[i] += T::ColumnSum::from(row[i].absolute_difference(partners[i]));
         }
     }

@@ -7,31 +7,31 @@
 //! above `m`, the score is `2 (2^f Q - r K) + n mu - 2^f S`. So one saturating subtraction per
 //! pixel is enough for any f.
 
-use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane};
+use foveate_pixels::vectors::{BLOCK_LENGTH, Block, VectorPixel};
 
 /// Adds to every column the amounts by which its pixels exceed `mean`.
 #[inline(always)]
-pub(crate) fn add_above<T: PixelLane>(
+pub(crate) fn add_above<T: VectorPixel>(
     pixels: &[Block<T>],
     mean: &[Block<T>],
     above: &mut [Block<T::ColumnSum>],
 ) {
     for ((pixels, mean), above) in pixels.iter().zip(mean).zip(above) {
-        for i in 0..BLOCK_LANES {
+        for i in 0..BLOCK_LENGTH {
             above[i] += T::ColumnSum::from(pixels[i].saturating_minus(mean[i]));
         }
     }
 }
 
-/// Adds one to every lane whose pixel is above `mean`.
+/// Adds one to every element whose pixel is above `mean`.
 #[inline(always)]
-pub(crate) fn count_above<T: PixelLane>(
+pub(crate) fn count_above<T: VectorPixel>(
     pixels: &[Block<T>],
     mean: &[Block<T>],
     hits: &mut [Block<T>],
 ) {
     for ((pixels, mean), hits) in pixels.iter().zip(mean).zip(hits) {
-        for i in 0..BLOCK_LANES {
+        for i in 0..BLOCK_LENGTH {
             hits[i] += pixels[i].saturating_minus(mean[i]).min(T::ONE);
         }
     }

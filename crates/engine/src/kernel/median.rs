@@ -7,22 +7,25 @@
 
 use crate::kernel::{ExtendedRow, WindowSides, extended_block};
 use foveate_pixels::{
-    lanes::prefetch,
-    lanes::{BLOCK_LANES, Block, PixelLane},
+    vectors::prefetch,
+    vectors::{BLOCK_LENGTH, Block, VectorPixel},
 };
 
 /// Sorts the three pixels of every column.
 #[inline(always)]
-pub(crate) fn sort_columns<T: PixelLane>(rows: [&[Block<T>]; 3], sorted: [&mut [Block<T>]; 3]) {
+pub(crate) fn sort_columns<T: VectorPixel>(rows: [&[Block<T>]; 3], sorted: [&mut [Block<T>]; 3]) {
     let ([a, b, c], [low, mid, high]) = (rows, sorted);
     let blocks = low.len();
     let (a, b, c) = (&a[..blocks], &b[..blocks], &c[..blocks]);
     let (mid, high) = (&mut mid[..blocks], &mut high[..blocks]);
     for at in 0..blocks {
         let (a, b, c) = (&a[at], &b[at], &c[at]);
-        let (mut lows, mut mids, mut highs) =
-            ([T::default(); BLOCK_LANES], [T::default(); BLOCK_LANES], [T::default(); BLOCK_LANES]);
-        for i in 0..BLOCK_LANES {
+        let (mut lows, mut mids, mut highs) = (
+            [T::default(); BLOCK_LENGTH],
+            [T::default(); BLOCK_LENGTH],
+            [T::default(); BLOCK_LENGTH],
+        );
+        for i in 0..BLOCK_LENGTH {
             let (p, q, r) = (a[i], b[i], c[i]);
             let (p, q) = (p.min(q), p.max(q));
             let (q, r) = (q.min(r), q.max(r));
@@ -35,7 +38,7 @@ pub(crate) fn sort_columns<T: PixelLane>(rows: [&[Block<T>]; 3], sorted: [&mut [
 /// Computes the median of every window from its three sorted columns. Prefetches `ahead`, raw
 /// pixels that will be sorted some rows later.
 #[inline(always)]
-pub(crate) fn combine_columns<T: PixelLane>(
+pub(crate) fn combine_columns<T: VectorPixel>(
     [low, mid, high]: [ExtendedRow<'_, T>; 3],
     sides: impl WindowSides<T>,
     ahead: &[Block<T>],
@@ -47,8 +50,8 @@ pub(crate) fn combine_columns<T: PixelLane>(
         }
         let (low, mid, high) =
             (extended_block(low, at), extended_block(mid, at), extended_block(high, at));
-        let mut medians = [T::default(); BLOCK_LANES];
-        for i in 0..BLOCK_LANES {
+        let mut medians = [T::default(); BLOCK_LENGTH];
+        for i in 0..BLOCK_LENGTH {
             medians[i] = median_of_columns(
                 sides.window_row(low, at, i),
                 sides.window_row(mid, at, i),
@@ -61,7 +64,7 @@ pub(crate) fn combine_columns<T: PixelLane>(
 
 /// Returns the median of a window from the lows, mids and highs of its sorted columns.
 #[inline(always)]
-pub(crate) fn median_of_columns<T: PixelLane>(
+pub(crate) fn median_of_columns<T: VectorPixel>(
     low: (T, T, T),
     mid: (T, T, T),
     high: (T, T, T),
@@ -71,7 +74,7 @@ pub(crate) fn median_of_columns<T: PixelLane>(
 
 /// Returns the second of three values in sorted order.
 #[inline(always)]
-fn middle<T: PixelLane>((a, b, c): (T, T, T)) -> T {
+fn middle<T: VectorPixel>((a, b, c): (T, T, T)) -> T {
     a.min(b).max(a.max(b).min(c))
 }
 
@@ -86,22 +89,22 @@ mod tests {
     fn every_window_of_zeros_and_ones_has_its_median() {
         for bits in 0..512u32 {
             let pixel = |place: usize| u8::from(bits >> place & 1 == 1);
-            // Lane 0 sees the window, whose left column is the lane before the first block.
+            // Element 0 sees the window, whose left column is the element before the first block.
             let rows = [0, 3, 6].map(|row| {
-                let mut lanes = [0; 3 * BLOCK_LANES];
-                lanes[BLOCK_LANES - 1] = pixel(row);
-                lanes[BLOCK_LANES] = pixel(row + 1);
-                lanes[BLOCK_LANES + 1] = pixel(row + 2);
-                lanes
+                let mut elements = [0; 3 * BLOCK_LENGTH];
+                elements[BLOCK_LENGTH - 1] = pixel(row);
+                elements[BLOCK_LENGTH] = pixel(row + 1);
+                elements[BLOCK_LENGTH + 1] = pixel(row + 2);
+                elements
             });
-            let mut sorted = [[0; 3 * BLOCK_LANES]; 3];
+            let mut sorted = [[0; 3 * BLOCK_LENGTH]; 3];
             let [low, mid, high] = &mut sorted;
             let blocks = [low, mid, high].map(|row| row.as_chunks_mut().0);
             let rows = rows.each_ref().map(|row| row.as_chunks().0);
             sort_columns(rows, blocks);
-            let mut out = [[9; BLOCK_LANES]];
+            let mut out = [[9; BLOCK_LENGTH]];
             combine_columns(
-                sorted.each_ref().map(|row| &row[BLOCK_LANES - 1..]),
+                sorted.each_ref().map(|row| &row[BLOCK_LENGTH - 1..]),
                 SharedSides,
                 &[],
                 &mut out,

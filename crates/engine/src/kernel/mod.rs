@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The arithmetic on blocks of lanes: one file per step, with plain loops that the compiler
+//! The arithmetic on blocks of elements: one file per step, with plain loops that the compiler
 //! vectorises.
 //!
 //! The slices of blocks that one call takes are equally long. A loop that pairs them stops at the
@@ -7,7 +7,7 @@
 #![allow(
     clippy::needless_range_loop,
     clippy::manual_memcpy,
-    reason = "lanes by number, in one loop: what vectorises"
+    reason = "elements by number, in one loop: what vectorises"
 )]
 
 pub(crate) mod binomial;
@@ -23,15 +23,15 @@ pub(crate) mod surface;
 pub(crate) mod switching;
 pub(crate) mod temporal;
 
-use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane};
+use foveate_pixels::vectors::{BLOCK_LENGTH, Block, VectorPixel};
 
-/// A row that has one lane before its first block and one lane after its last.
+/// A row that has one element before its first block and one element after its last.
 pub(crate) type ExtendedRow<'a, T> = &'a [T];
 
-/// Returns block `at` of such a row, with the lane before it and the lane after it.
+/// Returns block `at` of such a row, with the element before it and the element after it.
 #[inline(always)]
-pub(crate) fn extended_block<T>(row: ExtendedRow<'_, T>, at: usize) -> &[T; BLOCK_LANES + 2] {
-    row[at * BLOCK_LANES..].first_chunk().expect("one lane more on each side")
+pub(crate) fn extended_block<T>(row: ExtendedRow<'_, T>, at: usize) -> &[T; BLOCK_LENGTH + 2] {
+    row[at * BLOCK_LENGTH..].first_chunk().expect("one element more on each side")
 }
 
 /// The three rows that the windows of a row cover.
@@ -43,16 +43,16 @@ pub(crate) struct WindowRows<'a, T> {
 }
 
 /// The pixels that windows see beyond the sides of a region.
-pub(crate) trait WindowSides<T: PixelLane>: Copy {
-    /// Returns the pixels at the left, center and right of the window of lane `i` of block `at`, in
+pub(crate) trait WindowSides<T: VectorPixel>: Copy {
+    /// Returns the pixels at the left, center and right of the window of element `i` of block `at`, in
     /// one row.
-    fn window_row(self, row: &[T; BLOCK_LANES + 2], at: usize, i: usize) -> (T, T, T);
+    fn window_row(self, row: &[T; BLOCK_LENGTH + 2], at: usize, i: usize) -> (T, T, T);
 
-    /// Returns the sums of the left, center and right column of the window of lane `i` of block
+    /// Returns the sums of the left, center and right column of the window of element `i` of block
     /// `at`.
     fn window_sums(
         self,
-        row: &[T::ColumnSum; BLOCK_LANES + 2],
+        row: &[T::ColumnSum; BLOCK_LENGTH + 2],
         at: usize,
         i: usize,
     ) -> (T::ColumnSum, T::ColumnSum, T::ColumnSum);
@@ -70,16 +70,16 @@ pub(crate) struct IsolatedSides<'a, T> {
     pub(crate) last: &'a [Block<T>],
 }
 
-impl<T: PixelLane> WindowSides<T> for SharedSides {
+impl<T: VectorPixel> WindowSides<T> for SharedSides {
     #[inline(always)]
-    fn window_row(self, row: &[T; BLOCK_LANES + 2], _at: usize, i: usize) -> (T, T, T) {
+    fn window_row(self, row: &[T; BLOCK_LENGTH + 2], _at: usize, i: usize) -> (T, T, T) {
         (row[i], row[i + 1], row[i + 2])
     }
 
     #[inline(always)]
     fn window_sums(
         self,
-        row: &[T::ColumnSum; BLOCK_LANES + 2],
+        row: &[T::ColumnSum; BLOCK_LENGTH + 2],
         _at: usize,
         i: usize,
     ) -> (T::ColumnSum, T::ColumnSum, T::ColumnSum) {
@@ -87,9 +87,9 @@ impl<T: PixelLane> WindowSides<T> for SharedSides {
     }
 }
 
-impl<T: PixelLane> WindowSides<T> for IsolatedSides<'_, T> {
+impl<T: VectorPixel> WindowSides<T> for IsolatedSides<'_, T> {
     #[inline(always)]
-    fn window_row(self, row: &[T; BLOCK_LANES + 2], at: usize, i: usize) -> (T, T, T) {
+    fn window_row(self, row: &[T; BLOCK_LENGTH + 2], at: usize, i: usize) -> (T, T, T) {
         let center = row[i + 1];
         (
             select(self.first[at][i], center, row[i]),
@@ -101,7 +101,7 @@ impl<T: PixelLane> WindowSides<T> for IsolatedSides<'_, T> {
     #[inline(always)]
     fn window_sums(
         self,
-        row: &[T::ColumnSum; BLOCK_LANES + 2],
+        row: &[T::ColumnSum; BLOCK_LENGTH + 2],
         at: usize,
         i: usize,
     ) -> (T::ColumnSum, T::ColumnSum, T::ColumnSum) {
@@ -113,6 +113,6 @@ impl<T: PixelLane> WindowSides<T> for IsolatedSides<'_, T> {
 
 /// Returns `yes` where the mask is set, otherwise `no`.
 #[inline(always)]
-fn select<T: PixelLane>(mask: T, yes: T, no: T) -> T {
+fn select<T: VectorPixel>(mask: T, yes: T, no: T) -> T {
     no ^ ((yes ^ no) & mask)
 }

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `range`: the smallest and the largest pixel of every column, and then of every region.
 
-use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane};
+use foveate_pixels::vectors::{BLOCK_LENGTH, Block, VectorPixel};
 
 /// Replaces the extremes of every column by those of the column with one more row.
 #[inline(always)]
-pub(crate) fn update_extremes<T: PixelLane>(
+pub(crate) fn update_extremes<T: VectorPixel>(
     pixels: &[Block<T>],
     smallest: &mut [Block<T>],
     largest: &mut [Block<T>],
 ) {
     for ((pixels, smallest), largest) in pixels.iter().zip(smallest).zip(largest) {
-        for i in 0..BLOCK_LANES {
+        for i in 0..BLOCK_LENGTH {
             smallest[i] = smallest[i].min(pixels[i]);
             largest[i] = largest[i].max(pixels[i]);
         }
@@ -21,7 +21,7 @@ pub(crate) fn update_extremes<T: PixelLane>(
 /// Computes the range of every region from the extremes of its columns. A region has `side`
 /// columns.
 #[inline(always)]
-pub(crate) fn ranges_by_region<T: PixelLane>(
+pub(crate) fn ranges_by_region<T: VectorPixel>(
     smallest: &[T],
     largest: &[T],
     side: usize,

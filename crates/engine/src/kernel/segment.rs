@@ -7,7 +7,7 @@
 //! pixel and bound is enough for any f.
 
 use super::mad::region_mean;
-use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane};
+use foveate_pixels::vectors::{BLOCK_LENGTH, Block, VectorPixel};
 
 /// The parameters of `segment`.
 #[derive(Clone, Copy, Debug)]
@@ -34,10 +34,10 @@ impl SegmentPlan {
     }
 }
 
-/// Adds one to every lane of `above` whose pixel is above its upper bound, and to every lane of
+/// Adds one to every element of `above` whose pixel is above its upper bound, and to every element of
 /// `below` whose pixel is below its lower bound.
 #[inline(always)]
-pub(crate) fn count_parts<T: PixelLane>(
+pub(crate) fn count_parts<T: VectorPixel>(
     pixels: &[Block<T>],
     [upper, lower]: [&[Block<T>]; 2],
     [above, below]: [&mut [Block<T>]; 2],
@@ -46,7 +46,7 @@ pub(crate) fn count_parts<T: PixelLane>(
     for ((pixels, (upper, lower)), (above, below)) in
         pixels.iter().zip(bounds).zip(above.iter_mut().zip(below))
     {
-        for i in 0..BLOCK_LANES {
+        for i in 0..BLOCK_LENGTH {
             above[i] += pixels[i].saturating_minus(upper[i]).min(T::ONE);
             below[i] += lower[i].saturating_minus(pixels[i]).min(T::ONE);
         }

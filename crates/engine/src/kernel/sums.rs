@@ -3,13 +3,16 @@
 
 use std::ops::Range;
 
-use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane};
+use foveate_pixels::vectors::{BLOCK_LENGTH, Block, VectorPixel};
 
 /// Adds every pixel to the sum of its column.
 #[inline(always)]
-pub(crate) fn add_to_columns<T: PixelLane>(pixels: &[Block<T>], sums: &mut [Block<T::ColumnSum>]) {
+pub(crate) fn add_to_columns<T: VectorPixel>(
+    pixels: &[Block<T>],
+    sums: &mut [Block<T::ColumnSum>],
+) {
     for (pixels, sums) in pixels.iter().zip(sums) {
-        for i in 0..BLOCK_LANES {
+        for i in 0..BLOCK_LENGTH {
             sums[i] += T::ColumnSum::from(pixels[i]);
         }
     }
@@ -17,7 +20,7 @@ pub(crate) fn add_to_columns<T: PixelLane>(pixels: &[Block<T>], sums: &mut [Bloc
 
 /// Computes the column sums of some rows of a plane. `plane` begins at the first column of `sums`.
 #[inline(always)]
-pub(crate) fn add_rows<T: PixelLane>(
+pub(crate) fn add_rows<T: VectorPixel>(
     plane: &[T],
     stride: usize,
     rows: Range<usize>,
@@ -25,12 +28,12 @@ pub(crate) fn add_rows<T: PixelLane>(
 ) {
     for (at, sums) in sums.iter_mut().enumerate() {
         // The sums stay in registers over all rows.
-        let mut own = [T::ColumnSum::default(); BLOCK_LANES];
+        let mut own = [T::ColumnSum::default(); BLOCK_LENGTH];
         for row in rows.clone() {
             if let Some(pixels) =
-                plane[row * stride + at * BLOCK_LANES..].first_chunk::<BLOCK_LANES>()
+                plane[row * stride + at * BLOCK_LENGTH..].first_chunk::<BLOCK_LENGTH>()
             {
-                for i in 0..BLOCK_LANES {
+                for i in 0..BLOCK_LENGTH {
                     own[i] += T::ColumnSum::from(pixels[i]);
                 }
             }
@@ -41,9 +44,9 @@ pub(crate) fn add_rows<T: PixelLane>(
 
 /// Adds the square of every pixel to the sum of its column.
 #[inline(always)]
-pub(crate) fn add_squares<T: PixelLane>(pixels: &[Block<T>], sums: &mut [Block<T::SquareSum>]) {
+pub(crate) fn add_squares<T: VectorPixel>(pixels: &[Block<T>], sums: &mut [Block<T::SquareSum>]) {
     for (pixels, sums) in pixels.iter().zip(sums) {
-        for i in 0..BLOCK_LANES {
+        for i in 0..BLOCK_LENGTH {
             sums[i] += pixels[i].square();
         }
     }

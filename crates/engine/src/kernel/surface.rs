@@ -3,13 +3,13 @@
 //! right, below, below to the right and below to the left.
 
 use crate::kernel::{WindowRows, WindowSides, extended_block};
-use foveate_pixels::lanes::{BLOCK_LANES, Block, PixelLane};
+use foveate_pixels::vectors::{BLOCK_LENGTH, Block, VectorPixel};
 
 pub(crate) const DISPLACEMENTS: usize = 4;
 
 /// Adds the differences of every window to the sums of its column.
 #[inline(always)]
-pub(crate) fn add_differences<T: PixelLane>(
+pub(crate) fn add_differences<T: VectorPixel>(
     windows: WindowRows<'_, T>,
     sides: impl WindowSides<T>,
     sums: [&mut [Block<T::ColumnSum>]; DISPLACEMENTS],
@@ -19,7 +19,7 @@ pub(crate) fn add_differences<T: PixelLane>(
     for (at, (((right, below), below_right), below_left)) in sums.enumerate() {
         let here = extended_block(windows.here, at);
         let under = extended_block(windows.below, at);
-        for i in 0..BLOCK_LANES {
+        for i in 0..BLOCK_LENGTH {
             let (_, center, e) = sides.window_row(here, at, i);
             let (sw, s, se) = sides.window_row(under, at, i);
             let difference = |other| T::ColumnSum::from(center.absolute_difference(other));

@@ -4,15 +4,15 @@
 use crate::kernel::median::median_of_columns;
 use crate::kernel::{ExtendedRow, WindowSides, extended_block};
 use foveate_pixels::{
-    lanes::prefetch,
-    lanes::{BLOCK_LANES, Block, PixelLane},
+    vectors::prefetch,
+    vectors::{BLOCK_LENGTH, Block, VectorPixel},
 };
 
 /// Replaces every raw pixel of `pixels` that is an extreme of its window by the median, which
 /// follows from the three sorted columns of the window, as the extremes do. Prefetches `ahead`, raw
 /// pixels that will be sorted some rows later.
 #[inline(always)]
-pub(crate) fn replace_extremes<T: PixelLane>(
+pub(crate) fn replace_extremes<T: VectorPixel>(
     [low, mid, high]: [ExtendedRow<'_, T>; 3],
     sides: impl WindowSides<T>,
     ahead: &[Block<T>],
@@ -25,8 +25,8 @@ pub(crate) fn replace_extremes<T: PixelLane>(
         let (low, mid, high) =
             (extended_block(low, at), extended_block(mid, at), extended_block(high, at));
         let centers = *pixels;
-        let mut results = [T::default(); BLOCK_LANES];
-        for i in 0..BLOCK_LANES {
+        let mut results = [T::default(); BLOCK_LENGTH];
+        for i in 0..BLOCK_LENGTH {
             let low = sides.window_row(low, at, i);
             let high = sides.window_row(high, at, i);
             let median = median_of_columns(low, sides.window_row(mid, at, i), high);

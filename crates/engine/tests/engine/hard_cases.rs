@@ -34,7 +34,7 @@ fn entry(config: &mut CameraConfig, kind: FeatureKind) -> &mut SpatialConfig {
     config.spatial.iter_mut().find(|entry| entry.feature == kind).unwrap()
 }
 
-/// Regions of 64 x 64 extreme pixels give the largest sums, in both lane widths.
+/// Regions of 64 x 64 extreme pixels give the largest sums, in both types of pixels.
 #[test]
 fn the_largest_sums_stay_inside_their_lanes() {
     for bits in [8, 16] {

@@ -9,7 +9,7 @@ use foveate_camera::{
 use proptest::prelude::*;
 use proptest::sample::{select, subsequence};
 
-/// Returns cameras of every kind, with frames of one block of lanes, of several blocks, and ragged
+/// Returns cameras of every kind, with frames of one block of elements, of several blocks, and ragged
 /// ones.
 pub(crate) fn cameras() -> impl Strategy<Value = Camera> {
     let side = prop_oneof![

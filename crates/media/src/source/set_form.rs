@@ -19,10 +19,7 @@ pub enum SetFiles {
     /// The images are records in another file, without names of their own.
     Records,
     /// The images are in an IDX file, and the labels in another one.
-    Idx {
-        images: IdxFile,
-        labels: Option<IdxFile>,
-    },
+    Idx { images: IdxFile, labels: Option<IdxFile> },
 }
 
 /// An IDX file.

@@ -2,24 +2,24 @@
 //! The number of channels and positions in a pass of the inner loop: as many as possible while all
 //! sums fit into the registers.
 
-use foveate_pixels::lanes::InstructionSet;
+use foveate_pixels::vectors::InstructionSet;
 use std::ops::Range;
 
 /// The block sizes of the inner loop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct BlockSizes {
     /// The positions of a panel: as many values as two registers hold.
-    pub(crate) lanes: usize,
+    pub(crate) values: usize,
     /// The possible numbers of channels of a block, each with its measured time. The unit is a
     /// tenth of the time that a channel takes in the best block.
     sizes: &'static [(usize, usize)],
 }
 
 impl BlockSizes {
-    pub(crate) const BITS_128: Self = Self { lanes: 8, sizes: &[(4, 40)] };
-    pub(crate) const BITS_256: Self = Self { lanes: 16, sizes: &[(6, 60), (4, 46)] };
+    pub(crate) const BITS_128: Self = Self { values: 8, sizes: &[(4, 40)] };
+    pub(crate) const BITS_256: Self = Self { values: 16, sizes: &[(6, 60), (4, 46)] };
     pub(crate) const BITS_512: Self =
-        Self { lanes: 32, sizes: &[(12, 120), (10, 103), (6, 62), (4, 50)] };
+        Self { values: 32, sizes: &[(12, 120), (10, 103), (6, 62), (4, 50)] };
 
     pub(crate) fn for_instruction_set(level: InstructionSet) -> Self {
         match level.register_bits() {

@@ -11,7 +11,7 @@ use super::chunks::{CHUNK_POSITIONS, PositionChunk};
 use super::gathered_inputs::{ConvInput, GatheredInputs};
 use super::panels::{ConvOutputs, PackedWeights, add_block};
 use crate::values::{ByteNumber, TensorNumber};
-use foveate_pixels::lanes::{InstructionSet, PanelTask, VectorTask};
+use foveate_pixels::vectors::{InstructionSet, PanelTask, VectorTask};
 use std::ops::Range;
 
 /// The number of products whose sum is exact. A row of the window must not have more.
@@ -82,14 +82,14 @@ pub(crate) fn convolve_bytes<X: ByteNumber, Y: TensorNumber>(
     let taps = picture.columns.kernel;
     let rows = weights.packed.depth() / taps;
     let rows_at_once = rows.min(MAX_EXACT_PRODUCTS / taps);
-    let lanes = weights.packed.blocking().lanes;
-    let room = (picture.columns, BYTE_PANELS_PER_PASS * lanes / CHUNK_POSITIONS, rows_at_once);
+    let values = weights.packed.blocking().values;
+    let room = (picture.columns, BYTE_PANELS_PER_PASS * values / CHUNK_POSITIONS, rows_at_once);
     let mut gathered = GatheredInputs::new(room.0, room.1, room.2);
     let mut wide = GatheredInputs::new(room.0, room.1, room.2);
     let mut products = vec![0.0; rows_at_once * taps * MAX_BLOCK_CHANNELS];
-    let mut sums = vec![0i32; stride * BYTE_PANELS_PER_PASS * lanes];
-    for chunks in chunks.chunks(BYTE_PANELS_PER_PASS * lanes / CHUNK_POSITIONS) {
-        let panels = chunks.len().div_ceil(lanes / CHUNK_POSITIONS);
+    let mut sums = vec![0i32; stride * BYTE_PANELS_PER_PASS * values];
+    for chunks in chunks.chunks(BYTE_PANELS_PER_PASS * values / CHUNK_POSITIONS) {
+        let panels = chunks.len().div_ceil(values / CHUNK_POSITIONS);
         sums.fill(0);
         gathered.select_chunks(chunks);
         wide.select_chunks(chunks);
@@ -113,9 +113,9 @@ pub(crate) fn convolve_bytes<X: ByteNumber, Y: TensorNumber>(
         // The sums of a panel are finished and written channel by channel, each to the positions of
         // the panel's chunks.
         for (sums, chunks) in
-            sums.chunks(stride * lanes).zip(chunks.chunks(lanes / CHUNK_POSITIONS))
+            sums.chunks(stride * values).zip(chunks.chunks(values / CHUNK_POSITIONS))
         {
-            for ((channel, sums), plane) in (first..).zip(sums.chunks(lanes)).zip(&mut planes) {
+            for ((channel, sums), plane) in (first..).zip(sums.chunks(values)).zip(&mut planes) {
                 for (sums, chunk) in sums.chunks(CHUNK_POSITIONS).zip(chunks) {
                     let range = chunk.memory_range(width);
                     let to = &mut plane[range.start - first_position..range.end - first_position];
@@ -161,29 +161,29 @@ struct MultiplyTask<'a> {
     panels: usize,
     /// Room for the widened weights of a block.
     products: &'a mut [f32],
-    /// The sums: in each panel a row of lanes per channel.
+    /// The sums: in each panel a row of values per channel.
     sums: &'a mut [i32],
     stride: usize,
 }
 
 impl PanelTask for MultiplyTask<'_> {
     #[inline(always)]
-    fn run<const LANES: usize, const FUSED: bool>(self) {
+    fn run<const VALUES: usize, const FUSED: bool>(self) {
         let Self { weights, blocks, inputs, wide, panels, products, sums, stride } = self;
-        let sums = sums.as_chunks_mut::<LANES>().0;
+        let sums = sums.as_chunks_mut::<VALUES>().0;
         let first = blocks.first().map_or(0, |block| block.start);
         for block in blocks {
             let products = weights.widen(block, &inputs, products);
             for panel in 0..panels {
-                let mut exact = [[0.0; LANES]; MAX_BLOCK_CHANNELS];
+                let mut exact = [[0.0; VALUES]; MAX_BLOCK_CHANNELS];
                 let exact = &mut exact[..block.len()];
-                add_block::<LANES, FUSED>(products, wide, panel, exact);
+                add_block::<VALUES, FUSED>(products, wide, panel, exact);
                 let sums = &mut sums[panel * stride + block.start - first..];
                 for (sums, exact) in sums.iter_mut().zip(exact) {
-                    for lane in 0..LANES {
+                    for value in 0..VALUES {
                         #[allow(clippy::cast_possible_truncation, reason = "an integer")]
-                        let exact = exact[lane] as i32;
-                        sums[lane] = sums[lane].wrapping_add(exact);
+                        let exact = exact[value] as i32;
+                        sums[value] = sums[value].wrapping_add(exact);
                     }
                 }
             }

@@ -4,14 +4,14 @@
 //!
 //! The inputs of an area are copied, with their padding, into planes: one for each phase of the
 //! stride along either axis. In a plane the inputs of a tap have the same arrangement as the
-//! outputs, at a constant offset. Tiles therefore need not end with a row, so that all lanes of a
+//! outputs, at a constant offset. Tiles therefore need not end with a row, so that all values of a
 //! tile are used in narrow inputs, too.
 
 use super::gathered_inputs::{ConvInput, StridedInputs, copy_short_run};
 use super::output_areas::OutputArea;
 use crate::activation::Activation;
 use crate::mask::AxisWindow;
-use foveate_pixels::lanes::{InstructionSet, PanelTask};
+use foveate_pixels::vectors::{InstructionSet, PanelTask};
 
 /// The convolution of one channel.
 pub(crate) struct DepthwiseChannel<'a> {
@@ -38,19 +38,19 @@ struct DepthwiseTask<'a>(DepthwiseChannel<'a>, &'a mut AreaBuffers);
 
 impl PanelTask for DepthwiseTask<'_> {
     #[inline(always)]
-    fn run<const LANES: usize, const FUSED: bool>(self) {
+    fn run<const VALUES: usize, const FUSED: bool>(self) {
         let Self(
             DepthwiseChannel { picture, weights, bias, layouts, outputs, width, activation },
             planes,
         ) = self;
         for layout in layouts {
-            planes.enlarge(layout, 2 * LANES);
+            planes.enlarge(layout, 2 * VALUES);
             layout.gather(&picture, &mut planes.inputs);
-            for first in (0..layout.output_span).step_by(2 * LANES) {
+            for first in (0..layout.output_span).step_by(2 * VALUES) {
                 let inputs = &planes.inputs[first..];
-                let mut sums = tile::<LANES, FUSED>(inputs, &layout.taps, weights, bias);
+                let mut sums = tile::<VALUES, FUSED>(inputs, &layout.taps, weights, bias);
                 activation.apply_to_all(sums.as_flattened_mut());
-                planes.outputs[first..][..2 * LANES].copy_from_slice(sums.as_flattened());
+                planes.outputs[first..][..2 * VALUES].copy_from_slice(sums.as_flattened());
             }
             for (row, y) in layout.area.rows.clone().enumerate() {
                 let to = &mut outputs[y * width..][layout.area.columns.clone()];
@@ -144,18 +144,18 @@ impl AreaLayout {
 /// Returns the sums of the outputs of a tile. The compiler keeps two halves in registers, but not
 /// one array of twice the length.
 #[inline(always)]
-fn tile<const LANES: usize, const FUSED: bool>(
+fn tile<const VALUES: usize, const FUSED: bool>(
     inputs: &[f32],
     taps: &[usize],
     weights: &[f32],
     bias: f32,
-) -> [[f32; LANES]; 2] {
-    let mut sums = [[bias; LANES]; 2];
+) -> [[f32; VALUES]; 2] {
+    let mut sums = [[bias; VALUES]; 2];
     for (&tap, &weight) in taps.iter().zip(weights) {
-        let inputs = &inputs[tap..].as_chunks::<LANES>().0[..2];
+        let inputs = &inputs[tap..].as_chunks::<VALUES>().0[..2];
         for part in 0..2 {
-            for lane in 0..LANES {
-                let (input, sum) = (inputs[part][lane], &mut sums[part][lane]);
+            for value in 0..VALUES {
+                let (input, sum) = (inputs[part][value], &mut sums[part][value]);
                 *sum = if FUSED { weight.mul_add(input, *sum) } else { weight * input + *sum };
             }
         }

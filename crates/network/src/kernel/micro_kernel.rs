@@ -15,34 +15,34 @@ use super::gathered_inputs::GatheredInputs;
 #[inline(always)]
 pub(super) fn multiply<
     const CHANNELS: usize,
-    const LANES: usize,
+    const VALUES: usize,
     const IS_ROW: bool,
     const FUSED: bool,
 >(
     weights: &[[f32; CHANNELS]],
     gathered: &GatheredInputs,
     places: &[usize],
-    sums: &mut [[f32; LANES]; CHANNELS],
+    sums: &mut [[f32; VALUES]; CHANNELS],
 ) {
     // A local copy of the sums can stay in registers during the loop.
     let mut register_sums = *sums;
     let GatheredInputs { tap_offsets: taps, window_rows: rows, .. } = gathered;
     for (weights, &tap) in weights.iter().zip(taps) {
-        let mut inputs = [0.0; LANES];
+        let mut inputs = [0.0; VALUES];
         if IS_ROW {
-            inputs.copy_from_slice(&rows[places[0] + tap..][..LANES]);
+            inputs.copy_from_slice(&rows[places[0] + tap..][..VALUES]);
         } else {
             for (inputs, place) in inputs.chunks_mut(CHUNK_POSITIONS).zip(places) {
                 inputs.copy_from_slice(&rows[place + tap..][..CHUNK_POSITIONS]);
             }
         }
         for channel in 0..CHANNELS {
-            for lane in 0..LANES {
-                let sum = &mut register_sums[channel][lane];
+            for value in 0..VALUES {
+                let sum = &mut register_sums[channel][value];
                 *sum = if FUSED {
-                    weights[channel].mul_add(inputs[lane], *sum)
+                    weights[channel].mul_add(inputs[value], *sum)
                 } else {
-                    weights[channel] * inputs[lane] + *sum
+                    weights[channel] * inputs[value] + *sum
                 };
             }
         }

@@ -7,7 +7,7 @@ use super::chunks::{CHUNK_POSITIONS, PositionChunk};
 use super::gathered_inputs::{ConvInput, GatheredInputs};
 use super::micro_kernel::multiply;
 use crate::activation::Activation;
-use foveate_pixels::lanes::{InstructionSet, PanelTask};
+use foveate_pixels::vectors::{InstructionSet, PanelTask};
 use std::ops::Range;
 
 /// The number of inputs of an output that are gathered and multiplied before the next ones are
@@ -18,7 +18,7 @@ const PANELS_PER_PASS: usize = 6;
 
 /// The number of positions that are computed for some chunks. Panels are computed as a whole.
 pub(crate) fn scheduled_positions(chunks: usize, blocking: BlockSizes) -> usize {
-    (chunks * CHUNK_POSITIONS).next_multiple_of(blocking.lanes)
+    (chunks * CHUNK_POSITIONS).next_multiple_of(blocking.values)
 }
 
 /// Neighboring positions of some channels of the outputs.
@@ -56,9 +56,9 @@ struct ConvTask<'a> {
 
 impl PanelTask for ConvTask<'_> {
     #[inline(always)]
-    fn run<const LANES: usize, const FUSED: bool>(self) {
+    fn run<const VALUES: usize, const FUSED: bool>(self) {
         let Self { picture, weights, chunks, mut outputs, activation } = self;
-        assert_eq!(weights.blocking().lanes, LANES, "weights are packed for the level");
+        assert_eq!(weights.blocking().values, VALUES, "weights are packed for the level");
         let blocks = outputs.blocks;
         let (Some(first), Some(last)) = (blocks.first(), blocks.last()) else { return };
         let (first, channels) = (first.start, last.end - first.start);
@@ -67,15 +67,15 @@ impl PanelTask for ConvTask<'_> {
         let rows_at_once = all_rows.min((GATHERED_INPUTS / taps).max(1));
         let mut gathered = GatheredInputs::new(
             picture.columns,
-            PANELS_PER_PASS * LANES / CHUNK_POSITIONS,
+            PANELS_PER_PASS * VALUES / CHUNK_POSITIONS,
             rows_at_once,
         );
         // If one gather covers all products, a sum needs room only within its block.
         let is_once = rows_at_once == all_rows;
         let largest = blocks.iter().map(Range::len).max().unwrap_or_default();
         let stride = if is_once { largest } else { channels };
-        let mut sums = vec![[0.0; LANES]; stride * PANELS_PER_PASS];
-        for group in chunks.chunks(PANELS_PER_PASS * LANES / CHUNK_POSITIONS) {
+        let mut sums = vec![[0.0; VALUES]; stride * PANELS_PER_PASS];
+        for group in chunks.chunks(PANELS_PER_PASS * VALUES / CHUNK_POSITIONS) {
             gathered.select_chunks(group);
             for from in (0..all_rows).step_by(rows_at_once) {
                 let rows = from..all_rows.min(from + rows_at_once);
@@ -84,15 +84,16 @@ impl PanelTask for ConvTask<'_> {
                     let products =
                         weights.block_weights(block, &(rows.start * taps..rows.end * taps));
                     let first_sum = if is_once { 0 } else { block.start - first };
-                    let panels = sums.chunks_mut(stride).zip(group.chunks(LANES / CHUNK_POSITIONS));
+                    let panels =
+                        sums.chunks_mut(stride).zip(group.chunks(VALUES / CHUNK_POSITIONS));
                     for (panel, (sums, chunks)) in panels.enumerate() {
                         let sums = &mut sums[first_sum..][..block.len()];
                         if from == 0 {
                             start_with_bias(sums, weights, block.start);
                         }
-                        add_block::<LANES, FUSED>(products, &gathered, panel, sums);
+                        add_block::<VALUES, FUSED>(products, &gathered, panel, sums);
                         if rows.end == all_rows {
-                            // All lanes are computed, though some may have no position.
+                            // All values are computed, though some may have no position.
                             activation.apply_to_all(sums.as_flattened_mut());
                             outputs.scatter(sums, block.start - first, chunks);
                         }
@@ -105,57 +106,57 @@ impl PanelTask for ConvTask<'_> {
 
 /// Starts every sum with the bias of its channel.
 #[inline(always)]
-fn start_with_bias<const LANES: usize>(
-    sums: &mut [[f32; LANES]],
+fn start_with_bias<const VALUES: usize>(
+    sums: &mut [[f32; VALUES]],
     weights: &PackedWeights,
     first: usize,
 ) {
     for (sums, channel) in sums.iter_mut().zip(first..) {
-        *sums = [weights.bias(channel); LANES];
+        *sums = [weights.bias(channel); VALUES];
     }
 }
 
 /// Adds the products of a block.
 #[inline(always)]
-pub(super) fn add_block<const LANES: usize, const FUSED: bool>(
+pub(super) fn add_block<const VALUES: usize, const FUSED: bool>(
     weights: &[f32],
     inputs: &GatheredInputs,
     panel: usize,
-    sums: &mut [[f32; LANES]],
+    sums: &mut [[f32; VALUES]],
 ) {
-    match (LANES, sums.len()) {
-        (32, 12) => add_sized_block::<LANES, 12, FUSED>(weights, inputs, panel, sums),
-        (32, 10) => add_sized_block::<LANES, 10, FUSED>(weights, inputs, panel, sums),
-        (16 | 32, 6) => add_sized_block::<LANES, 6, FUSED>(weights, inputs, panel, sums),
-        _ => add_sized_block::<LANES, 4, FUSED>(weights, inputs, panel, sums),
+    match (VALUES, sums.len()) {
+        (32, 12) => add_sized_block::<VALUES, 12, FUSED>(weights, inputs, panel, sums),
+        (32, 10) => add_sized_block::<VALUES, 10, FUSED>(weights, inputs, panel, sums),
+        (16 | 32, 6) => add_sized_block::<VALUES, 6, FUSED>(weights, inputs, panel, sums),
+        _ => add_sized_block::<VALUES, 4, FUSED>(weights, inputs, panel, sums),
     }
 }
 
 /// Adds the products of a block of `CHANNELS` channels.
 #[inline(always)]
-fn add_sized_block<const LANES: usize, const CHANNELS: usize, const FUSED: bool>(
+fn add_sized_block<const VALUES: usize, const CHANNELS: usize, const FUSED: bool>(
     weights: &[f32],
     inputs: &GatheredInputs,
     panel: usize,
-    sums: &mut [[f32; LANES]],
+    sums: &mut [[f32; VALUES]],
 ) {
     let sums = sums.try_into().expect("a block has a sum for each of its channels");
     let weights = weights.as_chunks().0;
     let places =
-        &inputs.chunk_offsets[panel * LANES / CHUNK_POSITIONS..][..LANES / CHUNK_POSITIONS];
+        &inputs.chunk_offsets[panel * VALUES / CHUNK_POSITIONS..][..VALUES / CHUNK_POSITIONS];
     if places.windows(2).all(|pair| pair[0] + CHUNK_POSITIONS == pair[1]) {
-        multiply::<CHANNELS, LANES, true, FUSED>(weights, inputs, places, sums);
+        multiply::<CHANNELS, VALUES, true, FUSED>(weights, inputs, places, sums);
     } else {
-        multiply::<CHANNELS, LANES, false, FUSED>(weights, inputs, places, sums);
+        multiply::<CHANNELS, VALUES, false, FUSED>(weights, inputs, places, sums);
     }
 }
 
 impl ConvOutputs<'_> {
     /// Writes the outputs of some channels to their positions.
     #[inline(always)]
-    fn scatter<const LANES: usize>(
+    fn scatter<const VALUES: usize>(
         &mut self,
-        outputs: &[[f32; LANES]],
+        outputs: &[[f32; VALUES]],
         first: usize,
         chunks: &[PositionChunk],
     ) {
@@ -164,7 +165,7 @@ impl ConvOutputs<'_> {
         let is_row =
             chunks.windows(2).all(|pair| place(&pair[0]) + CHUNK_POSITIONS == place(&pair[1]));
         let is_whole =
-            is_row && chunks.len() * CHUNK_POSITIONS == LANES && self.width >= CHUNK_POSITIONS;
+            is_row && chunks.len() * CHUNK_POSITIONS == VALUES && self.width >= CHUNK_POSITIONS;
         for (outputs, plane) in outputs.iter().zip(&mut self.channels[first..]) {
             if is_whole {
                 let to = plane[place(&chunks[0])..].first_chunk_mut();

@@ -87,7 +87,7 @@ mod tests {
     use crate::kernel::{BlockSizes, chunks::chunks_of_mask};
     use crate::mask::Mask;
     use crate::tensor::TensorForm;
-    use foveate_pixels::lanes::InstructionSet;
+    use foveate_pixels::vectors::InstructionSet;
 
     /// Each chunk is in exactly one part, whose planes hold its positions. Each part adds 1 at the
     /// first position of its chunks, and no other part may write there.

@@ -4,7 +4,7 @@
 use super::{Operator, OperatorJob, only_input};
 use crate::activation::Activation;
 use crate::tensor::TensorForm;
-use foveate_pixels::lanes::{InstructionSet, VectorTask};
+use foveate_pixels::vectors::{InstructionSet, VectorTask};
 
 /// The number of values that are copied to the output before the function is applied to them, so
 /// that they are still in the nearest cache.
@@ -26,7 +26,7 @@ impl Operator for ActivationOperator {
     }
 }
 
-/// A function of some values, applied in vector lanes.
+/// A function of some values, applied as vectors.
 struct ActivationTask<'a> {
     from: &'a [f32],
     to: &'a mut [f32],

@@ -12,7 +12,7 @@ use crate::kernel::{
 use crate::mask::{AxisWindow, Mask};
 use crate::tensor::TensorForm;
 use crate::threads;
-use foveate_pixels::lanes::InstructionSet;
+use foveate_pixels::vectors::InstructionSet;
 use std::sync::Arc;
 
 /// A convolution of floating-point values.

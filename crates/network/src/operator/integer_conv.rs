@@ -12,7 +12,7 @@ use crate::mask::Mask;
 use crate::tensor::TensorForm;
 use crate::threads;
 use crate::values::ByteNumber;
-use foveate_pixels::lanes::InstructionSet;
+use foveate_pixels::vectors::InstructionSet;
 
 /// Weights of 8 bits, with one row per channel. Unsigned weights and their zero points are stored
 /// less 128.

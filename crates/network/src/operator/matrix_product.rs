@@ -12,7 +12,7 @@ use crate::mask::Mask;
 use crate::tensor::TensorForm;
 use crate::threads;
 use crate::values::ByteNumber;
-use foveate_pixels::lanes::{InstructionSet, VectorTask};
+use foveate_pixels::vectors::{InstructionSet, VectorTask};
 
 #[derive(Clone, Debug)]
 pub(crate) struct MatrixProduct {

@@ -11,7 +11,7 @@ use crate::kernel::{self, BlockSizes, ConvInput, ConvOutputs, PackedWeights, chu
 use crate::mask::{AxisWindow, Mask};
 use crate::tensor::TensorForm;
 use crate::threads;
-use foveate_pixels::lanes::InstructionSet;
+use foveate_pixels::vectors::InstructionSet;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 

@@ -9,7 +9,7 @@ use crate::activation::Activation;
 use crate::operator::{
     ArithmeticKind, ComparisonKind, PoolKind, ReductionKind, TransposedConv, TransposedWindow,
 };
-use foveate_pixels::lanes::InstructionSet;
+use foveate_pixels::vectors::InstructionSet;
 
 type OperatorReader = fn(&NodeReader<'_>) -> Result<Vec<NodeOutput>, String>;
 

@@ -15,7 +15,7 @@ use crate::operator::{
     QuantizedSoftmax, Requantization,
 };
 use crate::tensor::{Tensor, TensorForm};
-use foveate_pixels::lanes::InstructionSet;
+use foveate_pixels::vectors::InstructionSet;
 
 type QuantizedResult<T> = Result<T, String>;
 

@@ -13,7 +13,7 @@ use crate::operator::{
     ArgMax, Conv, Linear, LocalResponseNorm, MatrixProduct, MeanGroup, Normalization, Pool,
     PoolKind, ReducedAxes, ReductionKind, ReductionOperator, Softmax,
 };
-use foveate_pixels::lanes::InstructionSet;
+use foveate_pixels::vectors::InstructionSet;
 
 pub(super) fn conv(node: &NodeReader<'_>) -> Result<Vec<NodeOutput>, String> {
     let value = node.tensor_input(0)?;

@@ -7,7 +7,7 @@ use std::ops::Range;
 use fastrand::Rng;
 use foveate_packets::{
     FrameAssembler, PacketLayout, PacketSplitter, ReceivedFrame, StreamItem, StreamLoss,
-    packet_writer,
+    packet_encoding,
 };
 
 use crate::damage::case_count;
@@ -103,7 +103,7 @@ fn a_wrong_frame_number_costs_two_frames_at_most() {
     for jump in [100, 1 << 16, 1 << 30, (1 << 31) - 1, 1 << 31, u32::MAX - 2] {
         let at = frames[2].end;
         let mut forged = bytes[..at].to_vec();
-        packet_writer::append_frame(
+        packet_encoding::append_frame(
             &mut forged,
             &layout,
             2u32.wrapping_add(jump),
@@ -125,7 +125,7 @@ fn a_packet_of_a_later_frame_does_not_become_a_part_of_it() {
     let at = frames[2].start + layout.frame_bytes();
     let mut forged = bytes[..at].to_vec();
     let decisions = vec![Default::default(); layout.columns().try_into().unwrap()];
-    packet_writer::append_row(&mut forged, &layout, 3, 0, &decisions).unwrap();
+    packet_encoding::append_row(&mut forged, &layout, 3, 0, &decisions).unwrap();
     forged.extend(&bytes[at..]);
     let (received, losses) = read_stream(&mut rng, &layout, &forged);
     assert!(received.last() == whole.last(), "{losses:?}");

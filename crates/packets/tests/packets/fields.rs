@@ -4,7 +4,7 @@
 
 use foveate_design::DesignConfig;
 use foveate_packets::{
-    EndPacket, PacketError, PacketLayout, RegionDecision, RegionFlags, packet_writer,
+    EndPacket, PacketError, PacketLayout, RegionDecision, RegionFlags, packet_encoding,
 };
 
 use crate::stream::design;
@@ -36,11 +36,11 @@ fn a_packet_that_would_be_longer_than_its_length_says_is_refused() {
     // 2.
     let pixels = vec![0; 8 * 65_536];
     assert_eq!(
-        refusal(|out| packet_writer::append_region(out, &layout, 0, (0, 0), (PIXELS, &pixels))),
+        refusal(|out| packet_encoding::append_region(out, &layout, 0, (0, 0), (PIXELS, &pixels))),
         "a REGION of this design carries 4 values, not 524288"
     );
     assert_eq!(
-        refusal(|out| packet_writer::append_row(
+        refusal(|out| packet_encoding::append_row(
             out,
             &layout,
             0,
@@ -51,17 +51,17 @@ fn a_packet_that_would_be_longer_than_its_length_says_is_refused() {
     );
     let scores = (0..2).map(|_| [0; 2]);
     assert_eq!(
-        refusal(|out| packet_writer::append_scores(out, &layout, 0, 0, scores)),
+        refusal(|out| packet_encoding::append_scores(out, &layout, 0, 0, scores)),
         "a SCORES of this design carries 3 records, not 2"
     );
     let many = (0..).map(|_| [0; 2]).take(1 << 20);
     assert!(
-        refusal(|out| packet_writer::append_scores(out, &layout, 0, 0, many))
+        refusal(|out| packet_encoding::append_scores(out, &layout, 0, 0, many))
             .contains("3 records, not ")
     );
     let long = (0..3).map(|_| [0; 3]);
     assert_eq!(
-        refusal(|out| packet_writer::append_scores(out, &layout, 0, 0, long)),
+        refusal(|out| packet_encoding::append_scores(out, &layout, 0, 0, long)),
         "a SCORES of this design carries 2 numbers of a region, not 3"
     );
 }
@@ -70,7 +70,7 @@ fn a_packet_that_would_be_longer_than_its_length_says_is_refused() {
 fn a_place_that_no_region_has_is_refused() {
     let layout = layout();
     let region = |place| {
-        refusal(|out| packet_writer::append_region(out, &layout, 0, place, (PIXELS, &[0; 4])))
+        refusal(|out| packet_encoding::append_region(out, &layout, 0, place, (PIXELS, &[0; 4])))
     };
     let (row, column) = (
         |row| format!("the row of a packet cannot be {row}: it is 0 to 1"),
@@ -80,12 +80,12 @@ fn a_place_that_no_region_has_is_refused() {
         assert_eq!(region((wrong, 0)), row(wrong));
         let decisions = [RegionDecision::default(); 3];
         assert_eq!(
-            refusal(|out| packet_writer::append_row(out, &layout, 0, wrong, &decisions)),
+            refusal(|out| packet_encoding::append_row(out, &layout, 0, wrong, &decisions)),
             row(wrong)
         );
         let scores = (0..3).map(|_| [0; 2]);
         assert_eq!(
-            refusal(|out| packet_writer::append_scores(out, &layout, 0, wrong, scores)),
+            refusal(|out| packet_encoding::append_scores(out, &layout, 0, wrong, scores)),
             row(wrong)
         );
     }
@@ -99,7 +99,7 @@ fn a_number_that_does_not_fit_is_refused() {
     let layout = layout();
     let region = |value| {
         refusal(|out| {
-            packet_writer::append_region(out, &layout, 0, (0, 0), (PIXELS, &[0, value, 0, 0]))
+            packet_encoding::append_region(out, &layout, 0, (0, 0), (PIXELS, &[0, value, 0, 0]))
         })
     };
     // A lane of 8 bits would hold 0 for the last value.
@@ -110,7 +110,7 @@ fn a_number_that_does_not_fit_is_refused() {
         );
     }
     let score = |record| {
-        refusal(|out| packet_writer::append_scores(out, &layout, 0, 0, (0..3).map(|_| record)))
+        refusal(|out| packet_encoding::append_scores(out, &layout, 0, 0, (0..3).map(|_| record)))
     };
     assert_eq!(score([65_536, 0]), "the score of a packet cannot be 65536: it is 0 to 4");
     assert_eq!(score([0, 5]), "the score of a packet cannot be 5: it is 0 to 4");
@@ -118,7 +118,7 @@ fn a_number_that_does_not_fit_is_refused() {
         let end = EndPacket { rows_dropped, ..EndPacket::default() };
         let expected =
             format!("the dropped rows of a packet cannot be {rows_dropped}: it is 0 to 65535");
-        assert_eq!(refusal(|out| packet_writer::append_end(out, 0, end)), expected);
+        assert_eq!(refusal(|out| packet_encoding::append_end(out, 0, end)), expected);
     }
 }
 
@@ -130,17 +130,17 @@ fn flags_that_a_design_does_not_send_are_refused() {
     let layout = PacketLayout::new(&design, false, 1).unwrap();
     let scores = (0..3).map(|_| [0; 2]);
     assert_eq!(
-        refusal(|out| packet_writer::append_scores(out, &layout, 0, 0, scores)),
+        refusal(|out| packet_encoding::append_scores(out, &layout, 0, 0, scores)),
         "a SCORES of this design carries 0 records, not 3"
     );
     let summary = RegionFlags { raw: false, summary: true };
     assert_eq!(
-        refusal(|out| packet_writer::append_region(out, &layout, 0, (0, 0), (summary, &[]))),
+        refusal(|out| packet_encoding::append_region(out, &layout, 0, (0, 0), (summary, &[]))),
         "the summary flag of a packet cannot be 1: it is 0 to 0"
     );
     let raw = RegionFlags { raw: true, summary: false };
     assert_eq!(
-        refusal(|out| packet_writer::append_region(out, &layout, 0, (0, 0), (raw, &[0; 4]))),
+        refusal(|out| packet_encoding::append_region(out, &layout, 0, (0, 0), (raw, &[0; 4]))),
         "the raw flag of a packet cannot be 1: it is 0 to 0"
     );
 }

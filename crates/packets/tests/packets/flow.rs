@@ -5,7 +5,7 @@
 use foveate_camera::Displacement;
 use foveate_packets::{
     FlowPacket, FrameAssembler, Packet, PacketError, PacketLayout, PacketSplitter, ReceivedFrame,
-    StreamItem, StreamLoss, packet_writer,
+    StreamItem, StreamLoss, packet_encoding,
 };
 
 use crate::golden::packet;
@@ -49,13 +49,13 @@ fn split(layout: &PacketLayout, bytes: &[u8]) -> (Vec<Packet>, u64) {
 /// Returns the frame and the losses of a FRAME, these packets and an END, all of frame 5.
 fn receive(layout: &PacketLayout, packets: &[Vec<u8>]) -> (ReceivedFrame, Vec<StreamLoss>) {
     let mut bytes = Vec::new();
-    packet_writer::append_frame(&mut bytes, layout, 5, (0, true));
+    packet_encoding::append_frame(&mut bytes, layout, 5, (0, true));
     let still = vec![Default::default(); layout.columns() as usize];
     for row in 0..layout.rows() {
-        packet_writer::append_row(&mut bytes, layout, 5, row, &still).unwrap();
+        packet_encoding::append_row(&mut bytes, layout, 5, row, &still).unwrap();
     }
     bytes.extend(packets.concat());
-    packet_writer::append_end(&mut bytes, 5, Default::default()).unwrap();
+    packet_encoding::append_end(&mut bytes, 5, Default::default()).unwrap();
     let mut assembler = FrameAssembler::new(layout.clone());
     let mut frames = Vec::new();
     for packet in split(layout, &bytes).0 {
@@ -70,7 +70,7 @@ fn a_row_of_displacements_has_the_bytes_of_the_page() {
     let layout = layout(3);
     let (displacements, by_hand) = row_of_nine();
     let mut bytes = Vec::new();
-    packet_writer::append_flow(&mut bytes, &layout, 5, 1, &displacements).unwrap();
+    packet_encoding::append_flow(&mut bytes, &layout, 5, 1, &displacements).unwrap();
     assert_eq!(bytes, by_hand);
     assert_eq!(bytes.len(), layout.flow_bytes());
     let flow = Packet::Flow(FlowPacket { row: 1, displacements });
@@ -100,14 +100,14 @@ fn displacements_are_received_and_those_of_missing_rows_are_zero() {
     assert_eq!(losses[0].fields(), [Some(5), Some(0), None, None, None]);
 
     let mut first = Vec::new();
-    packet_writer::append_flow(&mut first, &layout, 5, 0, &row).unwrap();
+    packet_encoding::append_flow(&mut first, &layout, 5, 0, &row).unwrap();
     let (frame, losses) = receive(&layout, &[first.clone(), flow.clone()]);
     assert_eq!((frame.displacements, losses), ([&row[..], &row].concat(), vec![]));
 
     // The second packet of a row is ignored.
     let mut second = Vec::new();
     let others = displacements(&[(1, 1); 9]);
-    packet_writer::append_flow(&mut second, &layout, 5, 1, &others).unwrap();
+    packet_encoding::append_flow(&mut second, &layout, 5, 1, &others).unwrap();
     let (frame, losses) = receive(&layout, &[first, flow, second]);
     assert_eq!(frame.displacements, [&row[..], &row].concat());
     assert_eq!(losses, [StreamLoss::Misplaced { frame: 5, count: 1 }]);
@@ -169,7 +169,7 @@ fn displacements_that_do_not_fit_are_refused() {
         let mut bytes = vec![7; 3];
         let displacements = displacements(pairs);
         let error =
-            packet_writer::append_flow(&mut bytes, layout, 0, row, &displacements).unwrap_err();
+            packet_encoding::append_flow(&mut bytes, layout, 0, row, &displacements).unwrap_err();
         assert_eq!(bytes, [7; 3], "{error}");
         error
     };

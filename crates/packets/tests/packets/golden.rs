@@ -3,7 +3,7 @@
 
 use foveate_packets::{
     EndPacket, FrameAssembler, Packet, PacketLayout, PacketSplitter, RegionContent, RegionDecision,
-    RegionFlags, StreamItem, StreamLoss, packet_writer,
+    RegionFlags, StreamItem, StreamLoss, packet_encoding,
 };
 
 use crate::stream::design;
@@ -35,20 +35,20 @@ fn the_packets_of_a_frame_equal_those_written_by_hand() {
     let fingerprint = u64::from_str_radix(&design.fingerprint(), 16).unwrap();
     let number = 0x0102_0304;
     let mut bytes = Vec::new();
-    packet_writer::append_frame(&mut bytes, &layout, number, (77, true));
+    packet_encoding::append_frame(&mut bytes, &layout, number, (77, true));
     let decision = |srs, trs, summary| RegionDecision { srs, trs, summary };
     let row =
         [decision(true, true, false), decision(false, true, true), decision(true, false, false)];
-    packet_writer::append_row(&mut bytes, &layout, number, 1, &row).unwrap();
+    packet_encoding::append_row(&mut bytes, &layout, number, 1, &row).unwrap();
     let scores = [[4, 3, 0x1234], [1, 0, 0], [0, 4, 5]];
-    packet_writer::append_scores(&mut bytes, &layout, number, 1, scores.into_iter()).unwrap();
+    packet_encoding::append_scores(&mut bytes, &layout, number, 1, scores.into_iter()).unwrap();
     let flags = RegionFlags { raw: false, summary: false };
-    packet_writer::append_region(&mut bytes, &layout, number, (1, 0), (flags, &[1, 2, 0x3FF, 4]))
+    packet_encoding::append_region(&mut bytes, &layout, number, (1, 0), (flags, &[1, 2, 0x3FF, 4]))
         .unwrap();
     let flags = RegionFlags { raw: false, summary: true };
-    packet_writer::append_region(&mut bytes, &layout, number, (1, 1), (flags, &[0x155])).unwrap();
+    packet_encoding::append_region(&mut bytes, &layout, number, (1, 1), (flags, &[0x155])).unwrap();
     let end = EndPacket { regions_sent: 2, regions_dropped: 3, rows_dropped: 1 };
-    packet_writer::append_end(&mut bytes, number, end).unwrap();
+    packet_encoding::append_end(&mut bytes, number, end).unwrap();
 
     let by_hand = [
         packet(

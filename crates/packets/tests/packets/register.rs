@@ -7,7 +7,7 @@ use std::ops::Range;
 use fastrand::Rng;
 use foveate_packets::{
     Packet, PacketLayout, PacketSplitter, RegisterCommand, RegisterPacket, StreamItem,
-    packet_writer,
+    packet_encoding,
 };
 
 use crate::damage::{case_count, damage};
@@ -45,7 +45,7 @@ fn with_answers(
             let (address, value) = (rng.u16(..), rng.u32(..));
             let answer = RegisterPacket { address, is_write: rng.bool(), value };
             let start = bytes.len();
-            packet_writer::append_register(&mut bytes, answer);
+            packet_encoding::append_register(&mut bytes, answer);
             answers.push((start..bytes.len(), answer));
         }
         bytes.extend(&stream.bytes[at..end]);

@@ -8,7 +8,7 @@ use foveate_camera::Displacement;
 use foveate_design::{Design, DesignConfig};
 use foveate_packets::{
     EndPacket, FrameAssembler, PacketLayout, PacketSplitter, ReceivedFrame, RegionDecision,
-    RegionFlags, StreamItem, StreamLoss, packet_writer,
+    RegionFlags, StreamItem, StreamLoss, packet_encoding,
 };
 
 pub(crate) fn design(toml: &str) -> Design {
@@ -49,7 +49,7 @@ pub(crate) fn random_stream(rng: &mut Rng, count: u32) -> TestStream {
         let start = bytes.len();
         let start_of_frame = (u64::from(number) * 40_000, number == 0);
         let map_version = if layout.has_zones() { rng.u16(..) } else { 0 };
-        packet_writer::append_frame_of_map(
+        packet_encoding::append_frame_of_map(
             &mut bytes,
             &layout,
             number,
@@ -66,7 +66,7 @@ pub(crate) fn random_stream(rng: &mut Rng, count: u32) -> TestStream {
             let decisions: Vec<RegionDecision> = (0..layout.columns()).map(decision).collect();
             let early = rng.bool();
             if !early {
-                packet_writer::append_row(&mut bytes, &layout, number, row, &decisions).unwrap();
+                packet_encoding::append_row(&mut bytes, &layout, number, row, &decisions).unwrap();
             }
             for (column, decision) in (0..).zip(&decisions) {
                 if decision.summary || (decision.srs && decision.trs) {
@@ -75,7 +75,7 @@ pub(crate) fn random_stream(rng: &mut Rng, count: u32) -> TestStream {
                         .map(|_| rng.u16(..) >> (16 - bits))
                         .collect();
                     let flags = RegionFlags { raw: false, summary };
-                    packet_writer::append_region(
+                    packet_encoding::append_region(
                         &mut bytes,
                         &layout,
                         number,
@@ -87,22 +87,22 @@ pub(crate) fn random_stream(rng: &mut Rng, count: u32) -> TestStream {
                 }
             }
             if early {
-                packet_writer::append_row(&mut bytes, &layout, number, row, &decisions).unwrap();
+                packet_encoding::append_row(&mut bytes, &layout, number, row, &decisions).unwrap();
             }
             if layout.info().has_scores {
                 let scores = (0..layout.columns())
                     .map(|_| (0..numbers).map(|_| rng.u64(0..3)).collect::<Vec<_>>());
-                packet_writer::append_scores(&mut bytes, &layout, number, row, scores).unwrap();
+                packet_encoding::append_scores(&mut bytes, &layout, number, row, scores).unwrap();
             }
             if let Some(radius) = radius {
                 let all = Displacement::search_order(radius);
                 let displacements: Vec<_> =
                     (0..layout.columns()).map(|_| *rng.choice(&all).unwrap()).collect();
-                packet_writer::append_flow(&mut bytes, &layout, number, row, &displacements)
+                packet_encoding::append_flow(&mut bytes, &layout, number, row, &displacements)
                     .unwrap();
             }
         }
-        packet_writer::append_end(
+        packet_encoding::append_end(
             &mut bytes,
             number,
             EndPacket { regions_sent, ..EndPacket::default() },

@@ -5,7 +5,7 @@
 
 use foveate_packets::{
     FrameAssembler, Packet, PacketError, PacketLayout, PacketSplitter, ReceivedFrame, StreamItem,
-    packet_writer,
+    packet_encoding,
 };
 
 use crate::golden::packet;
@@ -65,11 +65,11 @@ fn a_frame_has_the_version_of_its_map_in_its_head() {
     assert!(layout.has_zones());
     for version in VERSIONS {
         let mut bytes = Vec::new();
-        packet_writer::append_frame_of_map(&mut bytes, &layout, 5, (77, false), version).unwrap();
+        packet_encoding::append_frame_of_map(&mut bytes, &layout, 5, (77, false), version).unwrap();
         assert_eq!(bytes, frame_by_hand(&layout, version));
     }
     let mut bytes = Vec::new();
-    packet_writer::append_frame(&mut bytes, &layout, 5, (77, false));
+    packet_encoding::append_frame(&mut bytes, &layout, 5, (77, false));
     assert_eq!(bytes, frame_by_hand(&layout, 0));
 }
 
@@ -78,12 +78,12 @@ fn versions_come_back_as_they_were_sent() {
     let (layout, mut bytes) = (layout(true), Vec::new());
     for (number, version) in (0..).zip(VERSIONS) {
         let start = (u64::from(number), number == 0);
-        packet_writer::append_frame_of_map(&mut bytes, &layout, number, start, version).unwrap();
+        packet_encoding::append_frame_of_map(&mut bytes, &layout, number, start, version).unwrap();
         let still = vec![Default::default(); layout.columns() as usize];
         for row in 0..layout.rows() {
-            packet_writer::append_row(&mut bytes, &layout, number, row, &still).unwrap();
+            packet_encoding::append_row(&mut bytes, &layout, number, row, &still).unwrap();
         }
-        packet_writer::append_end(&mut bytes, number, Default::default()).unwrap();
+        packet_encoding::append_end(&mut bytes, number, Default::default()).unwrap();
     }
     let version = |frame: &ReceivedFrame| frame.info.as_ref().unwrap().map_version;
     let received: Vec<u16> = receive(&layout, &bytes).iter().map(version).collect();
@@ -120,12 +120,12 @@ fn a_version_in_a_frame_of_a_design_without_zones_is_damage() {
 #[test]
 fn a_design_without_zones_writes_no_version() {
     let (layout, mut bytes) = (layout(false), vec![7; 3]);
-    let refusal = packet_writer::append_frame_of_map(&mut bytes, &layout, 5, (77, false), 1);
+    let refusal = packet_encoding::append_frame_of_map(&mut bytes, &layout, 5, (77, false), 1);
     assert_eq!(bytes, [7; 3]);
     assert_eq!(
         refusal.unwrap_err().to_string(),
         "the version of the map of a packet cannot be 1: it is 0 to 0"
     );
-    packet_writer::append_frame_of_map(&mut bytes, &layout, 5, (77, false), 0).unwrap();
+    packet_encoding::append_frame_of_map(&mut bytes, &layout, 5, (77, false), 0).unwrap();
     assert_eq!(bytes[3..], frame_by_hand(&layout, 0));
 }

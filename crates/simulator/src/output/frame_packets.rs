@@ -10,7 +10,7 @@ use foveate_camera::{Camera, RegionAction};
 use foveate_design::Design;
 use foveate_engine::{Engine, FrameOutcome};
 use foveate_packets::{
-    EndPacket, PacketError, PacketLayout, RegionDecision, RegionFlags, packet_writer,
+    EndPacket, PacketError, PacketLayout, RegionDecision, RegionFlags, packet_encoding,
 };
 use foveate_pixels::ByteFrame;
 use foveate_tools::GrowingFile;
@@ -136,12 +136,12 @@ fn write_frame(
     values: &mut ValuesOfRegion<'_>,
 ) -> Result<(), PacketError> {
     let FrameStart { number, time, is_first, map_version } = start;
-    packet_writer::append_frame_of_map(out, layout, number, (time, is_first), map_version)?;
+    packet_encoding::append_frame_of_map(out, layout, number, (time, is_first), map_version)?;
     let mut regions_sent = 0;
     for row in 0..layout.rows() {
         regions_sent += write_row(out, layout, outcome, (number, row), values)?;
     }
-    packet_writer::append_end(out, number, EndPacket { regions_sent, ..EndPacket::default() })
+    packet_encoding::append_end(out, number, EndPacket { regions_sent, ..EndPacket::default() })
 }
 
 /// Appends the packets of a row of regions of a frame. Returns the number of REGION packets among
@@ -158,14 +158,14 @@ fn write_row(
     let places = start as usize..regions.end as usize;
     let decisions: Vec<RegionDecision> =
         regions.clone().map(|region| region_decision(outcome, region as usize)).collect();
-    packet_writer::append_row(out, layout, number, row, &decisions)?;
+    packet_encoding::append_row(out, layout, number, row, &decisions)?;
     if layout.info().has_scores {
         let scores = regions.clone().map(|region| region_scores(outcome, region as usize));
-        packet_writer::append_scores(out, layout, number, row, scores)?;
+        packet_encoding::append_scores(out, layout, number, row, scores)?;
     }
     if layout.has_flow() {
         let displacements = &outcome.displacements[places];
-        packet_writer::append_flow(out, layout, number, row, displacements)?;
+        packet_encoding::append_flow(out, layout, number, row, displacements)?;
     }
     let (mut sent, mut values) = (0, Vec::new());
     for region in regions {
@@ -174,7 +174,7 @@ fn write_row(
         values_of(region, &mut values);
         let flags = RegionFlags { raw: layout.info().raw, summary };
         let place = (row, region - start);
-        packet_writer::append_region(out, layout, number, place, (flags, &values))?;
+        packet_encoding::append_region(out, layout, number, place, (flags, &values))?;
         sent += 1;
     }
     Ok(sent)

@@ -143,7 +143,7 @@ fn by_the_page(design: &Design, number: u32, time: u64, outcome: &FunctionalOutc
         (rows, 16),
     ];
     let mut stream = packet([1, u64::from(number == 0), 1, 0], &fields, number);
-    let lane = if depth <= 8 { 8 } else { 16 };
+    let value_bits = if depth <= 8 { 8 } else { 16 };
     let mut sent = 0;
     for row in 0..rows {
         let first = |row: u64| usize::try_from(row * columns).unwrap();
@@ -175,7 +175,8 @@ fn by_the_page(design: &Design, number: u32, time: u64, outcome: &FunctionalOutc
                 RegionAction::Hold | RegionAction::Blank => (2, Vec::new()),
             };
             if summary < 2 {
-                let values: Vec<_> = values.iter().map(|&value| (value.into(), lane)).collect();
+                let values: Vec<_> =
+                    values.iter().map(|&value| (value.into(), value_bits)).collect();
                 let flags = raw << 1 | summary << 2;
                 stream.extend(packet([4, flags, row, column], &values, number));
                 sent += 1;

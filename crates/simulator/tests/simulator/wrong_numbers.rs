@@ -8,7 +8,7 @@ use std::path::Path;
 use fastrand::Rng;
 use foveate_design::DesignConfig;
 use foveate_media::{RunHooks, SilentHooks, testing::RecordingHooks};
-use foveate_packets::{PacketLayout, StreamLoss, packet_writer};
+use foveate_packets::{PacketLayout, StreamLoss, packet_encoding};
 use foveate_simulator::{
     DecodedRecording, MAX_CLAIMED_PIXELS, PacketContent, PacketRecording, PacketStream, RunOptions,
     ShownFrame, SimulatorError, StreamItem,
@@ -153,7 +153,7 @@ fn a_stream_alone_asks_for_no_more_memory_than_8k_video() {
         let own: Vec<&str> = given.iter().map(String::as_str).chain(["region.size=64"]).collect();
         let design = config(&own).validate().unwrap();
         let mut bytes = Vec::new();
-        packet_writer::append_frame(
+        packet_encoding::append_frame(
             &mut bytes,
             &PacketLayout::new(&design, false, 1_000_000).unwrap(),
             0,
@@ -190,7 +190,7 @@ fn decoding_is_stopped_between_frames_that_cost_few_bytes() {
     // The first bytes that are read at once contain many frames.
     let mut bytes = sent[0].clone();
     for number in 1..500 {
-        packet_writer::append_frame(&mut bytes, &layout, number, (u64::from(number), false));
+        packet_encoding::append_frame(&mut bytes, &layout, number, (u64::from(number), false));
     }
     let folder = tempfile::tempdir().unwrap();
     let hooks = RecordingHooks::cancelling_after(1);

@@ -10,7 +10,7 @@ use foveate_emit::{AXI_TOP, FieldKind, axi_modules, axi_registers, axi_software}
 use foveate_model::{FunctionalCamera, region_pixels};
 use foveate_packets::{
     EndPacket, Packet, PacketLayout, PacketSplitter, RegionDecision, RegionFlags, StreamItem,
-    packet_writer,
+    packet_encoding,
 };
 use foveate_pixels::Frame;
 use foveate_tools::{
@@ -263,7 +263,7 @@ fn packets(design: &Design, layout: &PacketLayout) -> Vec<u8> {
     let columns = design.columns();
     for (number, frame) in (0..).zip(test_frames(design, 4)) {
         let seen = model.step(&frame).unwrap().clone();
-        packet_writer::append_frame(
+        packet_encoding::append_frame(
             &mut bytes,
             layout,
             number,
@@ -280,7 +280,7 @@ fn packets(design: &Design, layout: &PacketLayout) -> Vec<u8> {
                     summary: seen.actions[at] == RegionAction::Summarize,
                 })
                 .collect();
-            packet_writer::append_row(&mut bytes, layout, number, row, &decisions).unwrap();
+            packet_encoding::append_row(&mut bytes, layout, number, row, &decisions).unwrap();
             for column in 0..columns {
                 let summary = decisions[column as usize].summary;
                 let values = match (summary, seen.active[at(column)]) {
@@ -293,7 +293,7 @@ fn packets(design: &Design, layout: &PacketLayout) -> Vec<u8> {
                     (false, false) => continue,
                 };
                 let flags = RegionFlags { raw: layout.info().raw, summary };
-                packet_writer::append_region(
+                packet_encoding::append_region(
                     &mut bytes,
                     layout,
                     number,
@@ -304,7 +304,7 @@ fn packets(design: &Design, layout: &PacketLayout) -> Vec<u8> {
                 sent += 1;
             }
         }
-        packet_writer::append_end(
+        packet_encoding::append_end(
             &mut bytes,
             number,
             EndPacket { regions_sent: sent, regions_dropped: number, rows_dropped: number / 2 },

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The two lane types of a pixel, and the types of their sums.
+//! The two element types of a pixel, and the types of their sums.
 //!
 //! A pixel of up to 8 bits is a byte, a wider one is a 16-bit word. The kernels are generic over
-//! both. Loops run over blocks of [`BLOCK_LANES`] lanes, so that no loop has a remainder.
+//! both. Loops run over blocks of [`BLOCK_LENGTH`] elements, so that no loop has a remainder.
 //!
 //! FAST 5/8 as a network of minima and maxima.
 //!
@@ -15,14 +15,14 @@
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, BitAnd, BitXor, Deref, DerefMut, Neg, Sub};
 
-/// The number of lanes of a block, which is the number of bytes of an AVX-512 register.
-pub const BLOCK_LANES: usize = 64;
+/// The number of elements of a block, which is the number of bytes of an AVX-512 register.
+pub const BLOCK_LENGTH: usize = 64;
 
-/// One value per lane of a block.
-pub type Block<T> = [T; BLOCK_LANES];
+/// One value per element of a block.
+pub type Block<T> = [T; BLOCK_LENGTH];
 
 /// A pixel in the type in which the kernels compute.
-pub trait PixelLane:
+pub trait VectorPixel:
     Copy
     + Debug
     + Default
@@ -69,7 +69,7 @@ pub trait PixelLane:
 
     /// Returns `self - other`, at least 0.
     fn saturating_minus(self, other: Self) -> Self;
-    /// Returns `self + other`, at most [`PixelLane::MAX`].
+    /// Returns `self + other`, at most [`VectorPixel::MAX`].
     fn saturating_plus(self, other: Self) -> Self;
     /// Returns `|self - other|`.
     fn absolute_difference(self, other: Self) -> Self;
@@ -84,9 +84,9 @@ pub trait PixelLane:
     fn from_low_bits(value: u32) -> Self;
 }
 
-macro_rules! lane {
+macro_rules! element {
     ($pixel:ty, signed $signed:ty, sum $sum:ty, square $square:ty) => {
-        impl PixelLane for $pixel {
+        impl VectorPixel for $pixel {
             type Signed = $signed;
             type ColumnSum = $sum;
             type SquareSum = $square;
@@ -134,12 +134,12 @@ macro_rules! lane {
     };
 }
 
-lane!(u8, signed i16, sum u16, square u32);
-lane!(u16, signed i32, sum u32, square u64);
+element!(u8, signed i16, sum u16, square u32);
+element!(u16, signed i32, sum u32, square u64);
 
 /// Converts a threshold that the design has checked against its pixel range. A threshold that does
-/// not fit into the lane type cannot be exceeded, so the largest value of the type replaces it.
-pub fn saturated_threshold<T: PixelLane>(value: u32) -> T {
+/// not fit into the element type cannot be exceeded, so the largest value of the type replaces it.
+pub fn saturated_threshold<T: VectorPixel>(value: u32) -> T {
     T::try_from(value).unwrap_or(T::MAX)
 }
 
@@ -147,7 +147,7 @@ pub fn saturated_threshold<T: PixelLane>(value: u32) -> T {
 /// worse of two pixels, and `better` the better one. The score of an arc is its worst pixel. With
 /// minimum and maximum, the best arc is the brightest one; with maximum and minimum, the darkest.
 #[inline(always)]
-pub fn best_arc<T: PixelLane>(
+pub fn best_arc<T: VectorPixel>(
     x: [T; 8],
     worse: impl Fn(T, T) -> T,
     better: impl Fn(T, T) -> T,
@@ -173,8 +173,8 @@ pub struct AlignedBuffer<T> {
 impl<T: Copy + Default> AlignedBuffer<T> {
     /// Returns a buffer of `len` default values.
     pub fn new(len: usize) -> Self {
-        let store = vec![T::default(); len + BLOCK_LANES];
-        let start = store.as_ptr().align_offset(64).min(BLOCK_LANES);
+        let store = vec![T::default(); len + BLOCK_LENGTH];
+        let start = store.as_ptr().align_offset(64).min(BLOCK_LENGTH);
         Self { store, start, len }
     }
 }
@@ -239,7 +239,7 @@ mod tests {
             let copy = buffer.clone();
             assert_eq!(copy.as_ptr().align_offset(64), 0);
             assert_eq!(copy[..], vec![7; len]);
-            assert_eq!(copy.blocks().len(), len / BLOCK_LANES);
+            assert_eq!(copy.blocks().len(), len / BLOCK_LENGTH);
         }
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The vector instruction sets for which the inner loops are compiled; one is chosen at run time.
 //!
-//! The kernels are plain loops over blocks of a fixed number of lanes. They are fast because the
+//! The kernels are plain loops over blocks of a fixed number of elements. They are fast because the
 //! compiler may use vector instructions for them. A [`VectorTask`] is compiled once per
 //! [`InstructionSet`]. It is entered through a function that has the level's target features, into
 //! which everything that the task calls is inlined.
@@ -21,20 +21,20 @@ pub trait VectorTask {
 /// Work over panels, which are rows of 32-bit values that fill two vector registers. It is inlined
 /// like a [`VectorTask`], and is compiled once per level, with the panel size of that level.
 pub trait PanelTask {
-    /// Does the work on panels of `LANES` values. `FUSED` says that a product is multiplied and
+    /// Does the work on panels of `VALUES` values. `FUSED` says that a product is multiplied and
     /// added in one instruction, which rounds once.
-    fn run<const LANES: usize, const FUSED: bool>(self);
+    fn run<const VALUES: usize, const FUSED: bool>(self);
 }
 
 /// A [`PanelTask`] with a fixed panel size.
-struct SizedPanelTask<T, const LANES: usize, const FUSED: bool>(T);
+struct SizedPanelTask<T, const VALUES: usize, const FUSED: bool>(T);
 
-impl<T: PanelTask, const LANES: usize, const FUSED: bool> VectorTask
-    for SizedPanelTask<T, LANES, FUSED>
+impl<T: PanelTask, const VALUES: usize, const FUSED: bool> VectorTask
+    for SizedPanelTask<T, VALUES, FUSED>
 {
     #[inline(always)]
     fn run(self) {
-        self.0.run::<LANES, FUSED>();
+        self.0.run::<VALUES, FUSED>();
     }
 }
 
@@ -185,12 +185,12 @@ mod tests {
         }
     }
 
-    struct LaneCountTask<'a>(&'a mut usize);
+    struct VectorLengthTask<'a>(&'a mut usize);
 
-    impl PanelTask for LaneCountTask<'_> {
+    impl PanelTask for VectorLengthTask<'_> {
         #[inline(always)]
-        fn run<const LANES: usize, const FUSED: bool>(self) {
-            *self.0 = LANES;
+        fn run<const VALUES: usize, const FUSED: bool>(self) {
+            *self.0 = VALUES;
         }
     }
 
@@ -203,9 +203,9 @@ mod tests {
         }
         assert_eq!(usize::try_from(run_count).unwrap(), levels.len());
         for level in &levels {
-            let mut lanes = 0;
-            level.run_panels(LaneCountTask(&mut lanes));
-            assert_eq!(lanes, level.panel_lanes());
+            let mut elements = 0;
+            level.run_panels(VectorLengthTask(&mut elements));
+            assert_eq!(elements, level.panel_lanes());
         }
         assert_eq!(
             (levels[0].name(), levels.last()),

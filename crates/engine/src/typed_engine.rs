@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The engine for one lane width: the planes that are kept between frames, and their division among
+//! The engine for one type of pixels: the planes that are kept between frames, and their division among
 //! workers.
 
 use std::iter;
@@ -18,14 +18,14 @@ use crate::state_copy::{EngineState, StateCopy};
 use crate::strip::{BandStrip, KeptStripResults, SkippedWork};
 use crate::workers::Workers;
 use crate::working_memory::WorkingMemory;
-use foveate_pixels::{lanes::AlignedBuffer, lanes::PixelLane};
+use foveate_pixels::{vectors::AlignedBuffer, vectors::VectorPixel};
 
 /// The number of rows of the smallest strip.
 const SMALLEST_HEIGHT: usize = 96;
 
 /// The state that is kept between frames.
 #[derive(Debug)]
-pub(crate) struct LaneEngine<T: PixelLane> {
+pub(crate) struct TypedEngine<T: VectorPixel> {
     pub(crate) plan: CameraPlan<T>,
     denoised: AlignedBuffer<T>,
     reference: AlignedBuffer<T>,
@@ -68,7 +68,7 @@ impl<T> KeptBuffers<'_, T> {
     }
 }
 
-impl<T: PixelLane> LaneEngine<T> {
+impl<T: VectorPixel> TypedEngine<T> {
     pub(crate) fn new(plan: CameraPlan<T>, skip: bool) -> Self {
         let plane = plan.stride() * plan.rows * plan.side;
         let reference = match plan.reference {

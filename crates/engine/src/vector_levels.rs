@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Levels that differ from lane to lane, for bands in which some regions are keen.
+//! Levels that differ from element to element, for bands in which some regions are keen.
 
 use foveate_camera::RegionClass;
 
 use crate::plan::CameraPlan;
-use foveate_pixels::lanes::{AlignedBuffer, PixelLane};
+use foveate_pixels::vectors::{AlignedBuffer, VectorPixel};
 
-/// The levels of all lanes of a band in which a region is keen.
+/// The levels of all elements of a band in which a region is keen.
 #[derive(Clone, Debug)]
-pub(crate) struct LaneLevels<T: PixelLane> {
+pub(crate) struct VectorLevels<T: VectorPixel> {
     /// True if a region of the current band is keen, so that the levels are in use.
     is_used: bool,
     pub(crate) temporal: AlignedBuffer<T>,
@@ -17,15 +17,15 @@ pub(crate) struct LaneLevels<T: PixelLane> {
     pub(crate) edge: AlignedBuffer<T::Signed>,
 }
 
-impl<T: PixelLane> LaneLevels<T> {
+impl<T: VectorPixel> VectorLevels<T> {
     /// Makes room for the levels of a camera, which has no use for them without zones.
     pub(crate) fn new(plan: &CameraPlan<T>) -> Self {
-        let lanes = plan.zones.as_ref().map_or(0, |_| plan.stride());
+        let elements = plan.zones.as_ref().map_or(0, |_| plan.stride());
         Self {
             is_used: false,
-            temporal: AlignedBuffer::new(lanes),
-            corner: AlignedBuffer::new(lanes),
-            edge: AlignedBuffer::new(lanes),
+            temporal: AlignedBuffer::new(elements),
+            corner: AlignedBuffer::new(elements),
+            edge: AlignedBuffer::new(elements),
         }
     }
 
@@ -33,12 +33,12 @@ impl<T: PixelLane> LaneLevels<T> {
     pub(crate) fn set(&mut self, plan: &CameraPlan<T>, classes: &[RegionClass]) {
         self.is_used = classes.contains(&RegionClass::Keen);
         let Some(zones) = plan.zones.as_ref().filter(|_| self.is_used) else { return };
-        fill_lanes(&mut self.temporal, plan.side, classes, [plan.level, zones.keen_level]);
+        fill_elements(&mut self.temporal, plan.side, classes, [plan.level, zones.keen_level]);
         if let (Some(own), Some(keen)) = (plan.passes.corner, zones.keen_passes.corner) {
-            fill_lanes(&mut self.corner, plan.side, classes, [own, keen]);
+            fill_elements(&mut self.corner, plan.side, classes, [own, keen]);
         }
         if let (Some(own), Some(keen)) = (plan.passes.edge, zones.keen_passes.edge) {
-            fill_lanes(&mut self.edge, plan.side, classes, [own, keen]);
+            fill_elements(&mut self.edge, plan.side, classes, [own, keen]);
         }
     }
 
@@ -49,10 +49,15 @@ impl<T: PixelLane> LaneLevels<T> {
     }
 }
 
-/// Writes one of two values into the lanes of each region: that of the camera, or that of keen
+/// Writes one of two values into the elements of each region: that of the camera, or that of keen
 /// regions.
-fn fill_lanes<V: Copy>(lanes: &mut [V], side: usize, classes: &[RegionClass], [own, keen]: [V; 2]) {
-    for (lanes, &class) in lanes.chunks_mut(side).zip(classes) {
-        lanes.fill(if class == RegionClass::Keen { keen } else { own });
+fn fill_elements<V: Copy>(
+    elements: &mut [V],
+    side: usize,
+    classes: &[RegionClass],
+    [own, keen]: [V; 2],
+) {
+    for (elements, &class) in elements.chunks_mut(side).zip(classes) {
+        elements.fill(if class == RegionClass::Keen { keen } else { own });
     }
 }
