@@ -15,13 +15,14 @@
 //! 3. Of the cameras that meet the limits, only the simplest are built: a camera is dropped if a
 //!    simpler one also meets the limits. If the fewest bytes are wanted, only the cameras that send
 //!    the fewest are built ([`simplest_cameras`]). Each is built with every feed and with the folds
-//!    that are fast enough and may be the cheapest, or pipelined if no serial array is fast enough;
-//!    and as a raster core, if one is fast enough ([`possible_designs`]). The most promising
-//!    designs are synthesized first ([`rough_cost`], [`synthesis`]). If no clock is given, a
+//!    that are fast enough and may be the cheapest; pipelined, if no serial array is fast enough
+//!    or with a process; and as a raster core, if one is fast enough ([`possible_designs`]). The
+//!    most promising designs are synthesized first ([`rough_cost`], [`synthesis`]). If no clock is given, a
 //!    planned clock decides which designs are tried. The clock that is estimated from the netlist
 //!    decides whether they are fast enough, and which are folded again ([`slower_designs`]).
 //! 4. The cheapest design is chosen, with the reasons why no simpler one is enough ([`reasons`]),
-//!    and measured on the second half ([`fit_result`]).
+//!    measured on the second half ([`CameraSearch::measure_second_half`]), and reported
+//!    ([`fit_result`]).
 
 mod activity_target;
 mod camera_search;
