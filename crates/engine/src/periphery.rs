@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The summaries of irrelevant regions: means of blocks, the decision which of them are sent,
-//! and their place on the screen. The level of each element, which is the same one for all elements
-//! unless regions have classes.
+//! The summaries of irrelevant regions, which are means of blocks: they are computed
+//! ([`CurrentMeans`]), compared with what was sent last, and shown on the screen
+//! ([`SentSummaries`]). The level of the comparison is the same for all elements unless regions
+//! have classes ([`BlockLevels`]).
 
 use crate::outcome::RegionResults;
 use foveate_camera::RegionAction;

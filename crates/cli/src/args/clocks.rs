@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The options for the clocks of a core: its frequency, and the sink of its words. The options
-//! of a process in whose cells designs are measured.
+//! The options for the hardware that runs a design: the clock of a core and the sink of its
+//! words ([`ClockArgs`]), and the process in whose cells a design is measured
+//! ([`ProcessArgs`]).
 
 use super::DEFAULT_LIBERTY;
 use super::check::ClockFrequency;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The options that say how inputs are read. The frames of the inputs, for commands that hold
-//! all of them in memory. The check that a configuration from standard input leaves it to no
-//! other argument.
+//! The inputs of a command: how they are read ([`InputArgs`]), and what is checked before they
+//! are. Standard input feeds only one argument ([`refuse_second_reader`]), and an output
+//! replaces none of the inputs ([`check_output`]).
 
 use super::{DesignArgs, at_least_one};
 use crate::error::CliError;
