@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Thresholds that are written while frames come: other values for each of them, and sequences
-//! in which each decides. One threshold of a design: its register, its value in a
-//! configuration, and its copy to another.
+//! The choice of thresholds that are written while frames come: each value must show whether
+//! the core has taken it over, so each threshold decides once ([`threshold_sweep`]). A
+//! [`ThresholdKey`] is one threshold of a design: its register, its value in a configuration,
+//! and its copy to another.
 
 use foveate_camera::{
     Camera, Decimal, FeatureKind, KeenConfig, KeenSpatialConfig, RegionClass, VoteCombination,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The traffic on the buses of a core, in order, with the results that it must have. The C++
-//! program that drives the buses of the model that Verilator makes of the Verilog.
+//! The traffic on the buses of a core, in order, with the results that it must have
+//! ([`Traffic`]). It is text for a C++ program ([`program`]), which drives the buses of the
+//! model that Verilator makes of the Verilog.
 
 use crate::harness::render;
 use askama::Template;

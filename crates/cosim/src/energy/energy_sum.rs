@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The energy of an activity: the sum over all pins of the energies that the library gives for
-//! their changes, and of those that charge the inputs at each net. The loads and transition
-//! times of nets.
+//! The energy of an activity ([`EnergySum`]): the sum over all pins of the energies that the
+//! library gives for their changes, and of those that charge the inputs at each net. Both
+//! depend on the loads and the transition times of nets ([`NetElectrics`]).
 
 use crate::energy::activity::NetActivity;
 use crate::energy::simulated_netlist::{SimulatedGate, SimulatedNetlist};

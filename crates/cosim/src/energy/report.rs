@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The report on the energy of a design. Renders the report as text for a terminal and as
+//! The report on the energy of a design ([`EnergyReport`]), with its text for a terminal and as
 //! Markdown.
 
 pub use crate::energy::energy_sum::PartEnergies;

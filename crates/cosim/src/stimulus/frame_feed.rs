@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The order in which the pixel port takes a frame. The damage of frames for hardware that
-//! synchronizes to the start of a frame. The caller's frames, cut to the parts that the
-//! simulated hardware sees. The pauses between pixels and between frames.
+//! The way of the caller's frames to the pixel port. They are cut to the parts that the
+//! simulated hardware sees ([`FramePart`]), put into the order of the port ([`FrameFeed`]),
+//! perhaps damaged, for hardware that synchronizes to the start of a frame ([`FrameDelivery`]),
+//! and sent with pauses between pixels and between frames ([`GapPattern`]).
 
 use self::BeatCount::{AllButOne, One, Some as Many};
 use self::FrameDelivery::{Long, Restarted, Short, Strays, Twice, Unmarked, Whole};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The contents of a region: the hard cases, each drawn into a square of pixels. The drawing of
-//! patterns, with differences and counts near the design's thresholds.
+//! The contents of a region: the hard cases ([`StimulusPattern`]), each drawn into a square of
+//! pixels with differences and counts near the design's thresholds ([`PatternGenerator`]).
 
 use super::pattern_scorer::{PatternScorer, PatternScores};
 use super::unused_inputs::Random;
