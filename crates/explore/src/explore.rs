@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! An exploration: it measures a space over clips, and writes a folder of tables, fronts,
-//! configurations and one page. The work of an exploration: the clips, and the cameras of the
-//! designs.
+//! An exploration ([`explore`]): it measures a space over clips, and writes a folder of tables,
+//! fronts, configurations and one page. An [`ExplorationWork`] is what there is to measure: the
+//! clips, and the cameras of the designs.
 
 use super::point::{PointSynthesis, SynthesizedPoints};
 use super::row::{error_cells, load_cells, name_cells, point_cells, process_cells};

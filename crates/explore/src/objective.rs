@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The objectives that points are compared by, and the direction in which each figure is
-//! better. Tables, plots and the page take both from here. Pareto fronts of two costs: the
-//! points that no other point beats.
+//! The objectives that points are compared by ([`Objective`]), and the points that win: the
+//! Pareto fronts of two objectives, which no other point beats ([`mark_fronts`]). Tables, plots
+//! and the page take from here in which direction a figure is better.
 
 use crate::row::{DesignRow, FrontMembership, count_to_f64};
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The points of a space, each with its design. The synthesis of the points of an exploration:
-//! area and clock on an FPGA, and area, clock and energy in the cells of a process.
+//! The points of a space, each with its design ([`DesignPoint`]), and their synthesis
+//! ([`PointSynthesis`]): area and clock on an FPGA, and area, clock and energy in the cells of
+//! a process.
 
 use crate::cost::{ResultsByRtl, SynthesisResult};
 use crate::footage::ExplorationFootage;

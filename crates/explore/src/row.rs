@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A point with all its figures. The points as a table, with one list of columns for CSV and
-//! Parquet.
+//! A point with all its figures ([`DesignRow`]), which is a row of the table of points. CSV and
+//! Parquet have the same list of columns ([`point_cells`]).
 
 use super::point::SynthesizedPoint;
 use crate::LoadFigures;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The netlist of a design in the cells of a library, with models of the cells, for a
-//! simulator. The netlist of one unit of an array as a list of cells without modules, for a
-//! simulation of gates.
+//! The netlist of a design in the cells of a library, for a simulation of its gates: as Verilog
+//! with models of the cells, for a simulator ([`gate_netlist`]), or, for one unit of an array,
+//! as a list of cells without modules ([`FlatNetlist`]).
 
 use super::error::SiliconError;
 use super::job::SiliconJob;

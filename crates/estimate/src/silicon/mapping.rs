@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Maps an array to the cells of a library with Yosys. Large memories are cut out, and their
-//! ports become ports of the netlist.
+//! Maps an array to the cells of a library with Yosys ([`map_array`]). Large memories are cut
+//! out, their ports become ports of the netlist, and macros are chosen that could hold them
+//! ([`plan_memory`]).
 //!
-//! The macros that hold the memories that are not mapped to cells.
-//!
-//! A memory whose words are read at a clock edge fits in macros with at least as many ports as it
-//! reads and writes at a time. Its words are split over macros side by side, and its number of words
-//! over macros one after the other; of all macros, those with the smallest area are chosen. The logic
-//! that would select among macros is not counted.
+//! A memory whose words are read at a clock edge fits in macros with at least as many ports as
+//! it reads and writes at a time. Its words are split over macros side by side, and its number
+//! of words over macros one after the other; of all macros, those with the smallest area are
+//! chosen. The logic that would select among macros is not counted.
 
 use super::error::SiliconError;
 use super::library::{CELLS, LibertyLibrary, MemoryShape};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The report on a design in the cells of a library. Renders the report as text for a terminal
-//! and as Markdown.
+//! The report on a design in the cells of a library ([`SiliconReport`]), with its text for a
+//! terminal and as Markdown.
 
 use super::cell_totals::CellTotals;
 use super::leaves::SiliconLeaf;

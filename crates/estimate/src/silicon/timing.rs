@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The longest path and the leakage of a netlist, from OpenSTA. The longest path and the
-//! leakage of an array, from the timing of one of its units with the logic that the units
-//! share. A table of a liberty file: energies or times by the transition time of an input and
-//! the load of an output.
+//! The longest path and the leakage of an array in the cells of a library. OpenSTA finds those
+//! of a module ([`time_module`]); those of the array follow from one of its units with the
+//! logic that the units share ([`time_array`]). A [`LookupTable`] is how a library states times
+//! and energies: by the transition time of an input and the load of an output.
 
 use super::error::SiliconError;
 use super::liberty_text::LibertyGroup;

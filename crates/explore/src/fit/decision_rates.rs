@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The flips, missed regions and false alarms of a camera in a part of all clips, and the rates
-//! to expect of other frames. By how much a figure over some frames may differ from the same
-//! figure over as many other frames.
+//! What the decisions of a camera in some frames say about other frames: its flips, missed
+//! regions and false alarms there ([`DecisionRates`]), and by how much such a figure may be
+//! worse over as many other frames ([`group_margin`], [`share_of_others`]).
 
 use crate::row::count_to_f64;
 use foveate_inference::wilson_interval;

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The thresholds with which a camera is nearest to the limits on its decisions. Thresholds cost no
-//! area, so every camera is judged with its best ones.
+//! The thresholds with which a camera is nearest to the limits on its decisions
+//! ([`ThresholdSearch`]). Thresholds cost no area, so every camera is judged with its best
+//! ones.
 //!
-//! The levels of pixels are found by a descent: from some start, the search goes to the best of the
-//! levels around it as long as that is better. For each set of levels the best minima follow from one
-//! run over the frames ([`ThresholdRun`]), unless scores depend on decisions; then minima are steps
-//! of the descent, too. A run ends early when no minima can meet the limit on flips any more.
-//!
-//! The run of a camera over the searched frames, and its best minima. The scaling of
-//! thresholds, as if the contrast of the scene were scaled.
+//! The levels of pixels are found by a descent: from some start, the search goes to the best of
+//! the levels around it as long as that is better. For each set of levels the best minima
+//! follow from one run over the frames ([`ThresholdRun`]), unless scores depend on decisions;
+//! then minima are steps of the descent, too. A run ends early when no minima can meet the
+//! limit on flips any more. All thresholds together are scaled as if the contrast of the scene
+//! were ([`scale_thresholds`]).
 
 use super::constraints::{ConstraintCheck, Constraints, all_met};
 use super::decision_rates::{DecisionGroups, FRAME_GROUPS};

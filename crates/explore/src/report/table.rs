@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The points as rows of a table: columns of `points.csv` with headings for people. The setup
-//! and the findings of an exploration in a few lines.
+//! An exploration in words and numbers: the columns of `points.csv` with headings for people
+//! ([`columns_and_rows`]), and above them the setup and the findings in a few lines
+//! ([`facts`]).
 
 use super::setting::{PointSettings, axes_set};
 use crate::link::LinkRate;
