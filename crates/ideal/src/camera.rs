@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The ideal camera, which takes one whole frame at a time. The outcome of one frame.
+//! The ideal camera ([`IdealCamera`]), which takes one whole frame at a time, and gives the
+//! scores, decisions and pixels of that frame ([`IdealOutcome`]).
 
 use super::plane::RegionGrid;
 use crate::IdealError;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! An event of a pixel. The formats of files.
+//! An event of a pixel ([`PixelEvent`]), and the formats of files of such events
+//! ([`EventFormat`]).
 
 use std::fmt;
 

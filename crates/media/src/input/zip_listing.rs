@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The images in a ZIP archive, in natural order. An archive is read as the folder that it was
-//! made of, whether that folder is an entry of the archive or not. The images of a ZIP archive
-//! as a feed.
+//! The images in a ZIP archive, in natural order ([`zip_images`]), as a list or as a feed
+//! ([`open_zip`]). An archive is read as the folder that it was made of, whether that folder is
+//! an entry of the archive or not.
 
 use super::content_kind::{ContentKind, content};
 use super::entry::is_hidden;

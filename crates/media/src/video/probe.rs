@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The query of ffprobe before a video is decoded: its streams, container, codec and pixel
-//! format. The choice among the video streams of a file. Without a wish, it is the stream that
-//! players take: no attached picture, no single picture if there is a stream of several frames,
-//! and the stream that is marked as default, or else the first one. AVI files that end early.
-//! ffmpeg decodes the existing frames and reports nothing if the cut is between two frames. For
-//! other containers ffmpeg reports it.
+//! The query of ffprobe before a video is decoded ([`VideoProperties`]): its streams,
+//! container, codec and pixel format. Without a wish, the stream that players take is chosen
+//! ([`choose`]): no attached picture, no single picture if there is a stream of several frames,
+//! and the stream that is marked as default, or else the first one.
+//!
+//! AVI files that end early are noticed by their length ([`truncation_problem`]): ffmpeg
+//! decodes the existing frames and reports nothing if the cut is between two frames. For other
+//! containers it reports the cut.
 
 use super::{VideoMedium, formats};
 use crate::FootageError;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The flatbuffer of a packet of events: a vector of events with 16 bytes each, which are the
-//! time, the column, the row, the polarity, and three bytes that are 0. The compression of
-//! packets.
+//! A packet of events ([`EventQueue`]): a flatbuffer with a vector of 16 bytes for each event,
+//! which are the time, the column, the row, the polarity, and three bytes that are 0. A packet
+//! may be compressed ([`PacketCompression`]).
 
 use super::flat_table::FlatTable;
 use crate::events::PixelEvent;

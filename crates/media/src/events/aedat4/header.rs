@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The header of a file: the line of its format, and a flatbuffer with the compression, the
-//! place of the table of packets, and the streams. The XML of a header: the streams of a file,
-//! their content, and the size of the sensor.
+//! The header of a file ([`Aedat4Header`]): the line of its format, and a flatbuffer with the
+//! compression, the place of the table of packets, and the streams. The streams are XML with
+//! their content and the size of the sensor ([`StreamInfo`]).
 
 use super::event_packet::{EVENTS_IDENTIFIER, PacketCompression};
 use super::flat_table::{FlatTable, LENGTH_BYTES};

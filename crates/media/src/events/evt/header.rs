@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The header of a file: lines of text that begin with `%`. The versions of EVT.
+//! The header of a file ([`EvtHeader`]): lines of text that begin with `%`, one of which states
+//! the version of EVT ([`EvtVersion`]).
 
 use crate::events::frame_size::check_frame_size;
 use crate::events::{EventFileError, EventFormat};
