@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A frame as the input of a network, with the positions that have changed. The conversion of
-//! pixels to the values that a network takes.
+//! A frame as the input of a network, with the positions that have changed ([`FrameInput`]). A
+//! [`PixelMapping`] converts pixels to the values that a network takes.
 
 use super::error::VisionError;
 use super::framing::FrameScaling;
