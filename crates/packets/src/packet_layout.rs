@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The lengths of the packets of a design, and the ranges of their fields. The fields of the
-//! 64-bit words that all packets consist of.
+//! The places of everything in the packets of a design: the lengths of the packets, the ranges
+//! of their fields ([`PacketLayout`]), and the fields of the 64-bit words that all packets
+//! consist of.
 
 use crate::{FrameInfo, PacketError};
 use foveate_camera::{Camera, IrrelevantRendering, Payload, SpatialFeature};

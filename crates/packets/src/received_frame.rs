@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A received frame: its decisions, its regions and its losses. Converts the times of frames
-//! from ticks, which may be wrong, to microseconds since the first frame.
+//! A received frame ([`ReceivedFrame`]): its decisions, its regions and its losses. A
+//! [`FrameClock`] gives it a time in microseconds since the first frame; it comes in ticks,
+//! which may be wrong.
 
 use super::packet_layout::index;
 use crate::{

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The stalls of a sink, read from a table. The file `losses.csv`, with one line for each item
-//! that is missing from a stream. It exists only if something is missing.
+//! Two tables beside a run: the stalls of a sink, which it reads ([`read_stalls`]), and
+//! `losses.csv`, which it writes if something is missing from a stream, with one line for each
+//! missing item ([`LossTable`]).
 
 use crate::SimulatorError;
 use crate::output::CsvFile;

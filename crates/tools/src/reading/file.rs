@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Opens input files, and reads small ones as a whole. A reader that fails at a limit. Files
-//! that may be gzipped.
+//! How inputs are read: files are opened in one place ([`open_file`]), small ones are read as a
+//! whole ([`read_bytes`]), gzipped ones are unpacked ([`unpacked`]), and a reader can fail at a
+//! limit ([`LimitedReader`]).
 
 use crate::reading::size_text::size_text;
 use flate2::bufread::MultiGzDecoder;
