@@ -260,8 +260,8 @@ mod tests {
         assert_eq!(refuse(&[Serial, Pipelined]), Err(both));
     }
 
-    /// Searches and studies try every reference and rendering without asking first, and all features
-    /// of the organization.
+    /// Searches and studies try every reference and rendering without asking first, and all
+    /// features of the organization.
     #[test]
     fn every_organization_supports_every_camera_with_its_features() {
         for &organization in Organization::ALL {

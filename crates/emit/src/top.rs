@@ -223,8 +223,8 @@ pub(crate) fn class_connections(design: &Design) -> [(&'static str, &'static str
     }
 }
 
-/// Returns the signal of the keen threshold that takes the place of this one. Without zones it is the
-/// signal of this threshold.
+/// Returns the signal of the keen threshold that takes the place of this one. Without zones it is
+/// the signal of this threshold.
 pub(crate) fn keen_signal(design: &Design, role: PortRole) -> String {
     threshold_signal(design, design.zones().map_or(role, |_| keen_role(role)))
 }

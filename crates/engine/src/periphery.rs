@@ -28,8 +28,8 @@ pub(crate) struct PeripheryPlan<T> {
 pub(crate) struct CurrentMeans<'a, T> {
     /// The means, row by row of blocks.
     pub(crate) means: &'a [T],
-    /// An output with one value per column of blocks: the largest difference of a mean of the column
-    /// from the mean that was sent last.
+    /// An output with one value per column of blocks: the largest difference of a mean of the
+    /// column from the mean that was sent last.
     pub(crate) differences: &'a mut [T],
     /// The regions whose pixels may have changed. The means of the other regions are not valid.
     pub(crate) affected: &'a [bool],

@@ -36,7 +36,8 @@ const NEWS_AFTER: Duration = Duration::from_secs(1);
 const TABLES: [&str; 4] = [POINTS, POINTS_PARQUET, CLIPS, REPORT];
 
 /// Runs an exploration and writes `output`. Finished results are kept there, so an interrupted run
-/// can continue. The tables and the page are written when the errors are known, and again as areas arrive.
+/// can continue. The tables and the page are written when the errors are known, and again as areas
+/// arrive.
 ///
 /// # Errors
 /// Fails if an input cannot be read, no point is a valid design, the folder holds something else or
@@ -83,7 +84,8 @@ struct PointResults {
     /// The load of every clip and point; empty if the space has no link.
     loads: Vec<Vec<Option<LoadFigures>>>,
     designs: Vec<Design>,
-    /// The results of synthesizing the designs, as far as they are known; without synthesis empty results.
+    /// The results of synthesizing the designs, as far as they are known; without synthesis empty
+    /// results.
     synthesized: SynthesizedPoints,
 }
 
@@ -173,7 +175,8 @@ impl PointResults {
         }
     }
 
-    /// Writes what is known so far, unless somebody has changed a file, which only the last write reports.
+    /// Writes what is known so far, unless somebody has changed a file, which only the last write
+    /// reports.
     fn write_so_far(
         &self,
         request: &ExploreRequest<'_>,
@@ -241,8 +244,8 @@ impl PointResults {
             _ => UNFINISHED_MARK.to_owned(),
         };
         files.push((MARK_FILE.to_owned(), mark.into_bytes()));
-        // Designs of an earlier, larger space are removed, because their numbers would belong to other
-        // points.
+        // Designs of an earlier, larger space are removed, because their numbers would belong to
+        // other points.
         Ok(open_continued(output)?.write(&files)?)
     }
 }

@@ -238,8 +238,8 @@ pub(crate) fn synthesis_progress(done: usize, all: usize) -> RunProgress<'static
     RunProgress::steps("synthesizing with Yosys", done as u64, all as u64)
 }
 
-/// Reports that designs are mapped to the cells of a process: so many distinct RTLs are done, of all
-/// distinct RTLs.
+/// Reports that designs are mapped to the cells of a process: so many distinct RTLs are done, of
+/// all distinct RTLs.
 pub(crate) fn mapping_progress(done: usize, all: usize) -> RunProgress<'static> {
     RunProgress::steps("mapping to cells", done as u64, all as u64)
 }

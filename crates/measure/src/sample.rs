@@ -45,8 +45,8 @@ pub(crate) trait PixelSample: Copy + Default + Ord + Into<u32> {
 /// vector instruction set.
 const SHIFT: f64 = 4_503_599_627_370_496.0; // 2^52
 
-/// Half of a sixteenth. The addition of [`SHIFT`] rounds halves to an even number; with this addend,
-/// it rounds halves up, and other multiples of a sixteenth as before.
+/// Half of a sixteenth. The addition of [`SHIFT`] rounds halves to an even number; with this
+/// addend, it rounds halves up, and other multiples of a sixteenth as before.
 const HALVES_UP: f64 = 0.031_25;
 
 impl PixelSample for u8 {

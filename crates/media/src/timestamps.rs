@@ -13,7 +13,8 @@ use std::path::{Path, PathBuf};
 
 /// The largest file of times in bytes.
 const MAX_BYTES: u64 = 1 << 26;
-/// The longest time between the first frame and the last in ns, ten years. More is most likely another unit.
+/// The longest time between the first frame and the last in ns, ten years. More is most likely
+/// another unit.
 const MAX_SPAN_NS: i128 = 3653 * 24 * 3600 * 1_000_000_000;
 /// The largest number of characters of a line in messages.
 const MAX_SHOWN: usize = 60;

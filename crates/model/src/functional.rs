@@ -106,7 +106,8 @@ pub struct FunctionalCamera {
 }
 
 impl FunctionalCamera {
-    /// Makes a camera in the state after a reset, whose regions have the classes of the configuration.
+    /// Makes a camera in the state after a reset, whose regions have the classes of the
+    /// configuration.
     #[must_use]
     pub fn new(camera: &Camera) -> Self {
         Self {

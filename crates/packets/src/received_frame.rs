@@ -169,8 +169,8 @@ impl ReceivedFrame {
             (0..self.contents.len()).map(|region| self.is_decided(region)).collect();
         let regions = self.decisions.iter_mut().zip(&mut self.contents).zip(decided);
         for (region, ((decision, content), is_decided)) in regions.enumerate() {
-            // In both values, `None` stands for no packet, true for a packet of means, and false for
-            // one of pixels.
+            // In both values, `None` stands for no packet, true for a packet of means, and false
+            // for one of pixels.
             let received_means =
                 content.as_ref().map(|content| matches!(content, RegionContent::Means(_)));
             if !is_decided {

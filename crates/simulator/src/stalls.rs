@@ -16,8 +16,8 @@ const MAX_STALLS: usize = 1 << 22;
 /// The largest number of characters of a wrong line in a message.
 const SHOWN_CHARACTERS: usize = 60;
 
-/// Reads a table of stalls. It has the columns `clock` and `clocks`: the first edge at which the sink
-/// takes no word, and the number of these edges.
+/// Reads a table of stalls. It has the columns `clock` and `clocks`: the first edge at which the
+/// sink takes no word, and the number of these edges.
 ///
 /// # Errors
 /// Fails if the file cannot be read, or if it is no list of stalls in order and without overlaps.

@@ -59,8 +59,8 @@ struct PlayerState {
     restart_requested: bool,
     is_over: bool,
     messages: Vec<String>,
-    /// The pages that have asked for a frame, the last to begin at the end. Only that one gets frames, because two pages
-    /// would take frames from each other.
+    /// The pages that have asked for a frame, the last to begin at the end. Only that one gets
+    /// frames, because two pages would take frames from each other.
     viewers: Vec<String>,
 }
 
@@ -352,8 +352,8 @@ pub(crate) fn frame_bytes(frame: &ShownFrame) -> Vec<u8> {
 pub(crate) const DIGITS: &[u8; 85] =
     b"0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%()*+-.:;=?@[]^_{|}~";
 
-/// Encodes bytes. Every group of four, with the first byte as the most significant one, becomes five
-/// digits, the most significant first. A last group of n < 4 bytes becomes n + 1 digits.
+/// Encodes bytes. Every group of four, with the first byte as the most significant one, becomes
+/// five digits, the most significant first. A last group of n < 4 bytes becomes n + 1 digits.
 pub(crate) fn encode(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(bytes.len().div_ceil(4) * 5);
     for group in bytes.chunks(4) {

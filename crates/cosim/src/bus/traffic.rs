@@ -297,8 +297,8 @@ impl<'a> Traffic<'a> {
         self.send_frame_around_each(sent, [at], inside);
     }
 
-    /// Sends a whole frame, and calls `inside` before each of the given lines, but behind the second
-    /// transfer. When the core has taken the second one, the frame has begun.
+    /// Sends a whole frame, and calls `inside` before each of the given lines, but behind the
+    /// second transfer. When the core has taken the second one, the frame has begun.
     pub(super) fn send_frame_around_each<const COUNT: usize>(
         &mut self,
         sent: ExpectedFrame,

@@ -258,8 +258,8 @@ impl FramePart {
     }
 
     /// Returns the parts that are simulated. An array has one part. A lone unit has as many parts,
-    /// evenly spread over the frames of the `whole` design, as are affordable for `frames` frames, and
-    /// `most` at most. Without that limit, each region has an RPU.
+    /// evenly spread over the frames of the `whole` design, as are affordable for `frames` frames,
+    /// and `most` at most. Without that limit, each region has an RPU.
     pub(super) fn all_of(
         whole: &Design,
         simulated: &Design,

@@ -185,8 +185,8 @@ impl SerialDesign<'_> {
 pub struct LaneWidths {
     /// Width of the accumulator, which is signed.
     pub accumulator: u32,
-    /// Width of the second word, which holds a mean, a sum, a quotient or the largest pixel. It is at
-    /// least 2.
+    /// Width of the second word, which holds a mean, a sum, a quotient or the largest pixel. It is
+    /// at least 2.
     pub second: u32,
     /// Width of the word that travels around the ring of lanes: a score, the sum of a block, a mean
     /// or, with raster feed, a pixel.

@@ -49,7 +49,8 @@ pub(super) struct MappedArray {
 }
 
 impl MappedArray {
-    /// Refuses an array of which a memory is not in the netlist, because it has more than `limit` bits.
+    /// Refuses an array of which a memory is not in the netlist, because it has more than `limit`
+    /// bits.
     pub(super) fn check_memories(&self, limit: u64) -> Result<(), SiliconError> {
         match self.memories.iter().map(|memory| memory.words * memory.width).max() {
             None => Ok(()),
@@ -129,7 +130,8 @@ fn mapping_job(synthesis: &SynthesisJob, library: &LibertyLibrary, limit: u64) -
         parameters.iter().map(|(name, value)| format!(" -set {name} {value}")).collect();
     let set = if set.is_empty() { set } else { format!("chparam{set} {array}\n") };
     let keep = format!("setattr -mod -set keep_hierarchy 1 {unit}\n");
-    // Instances get plain names and buses become single nets, because OpenSTA of 2019 reads no others.
+    // Instances get plain names and buses become single nets, because OpenSTA of 2019 reads no
+    // others.
     let script = format!(
         "{}synth -top {array} -flatten\n{}\
          rename -enumerate -pattern cell_%\n\
@@ -222,7 +224,8 @@ fn cut_memories(json: &Value, array: &str) -> Result<Vec<UnmappedMemory>, Silico
     Ok(found)
 }
 
-/// Returns the instances on the path to a memory, without the generate blocks around them: `u_forward.u_buffer`.
+/// Returns the instances on the path to a memory, without the generate blocks around them:
+/// `u_forward.u_buffer`.
 fn instance_path(name: &str) -> String {
     let path = name.trim_end_matches(".u_memory");
     let instances: Vec<&str> = path.split('.').filter(|part| part.starts_with("u_")).collect();

@@ -127,8 +127,8 @@ impl SiliconReport {
         area_um2 / self.library.gate_area_um2
     }
 
-    /// Returns the side in micrometres of a pixel under which the circuit of its region fits: the N x N
-    /// pixels of a region together have as much area as a region's share of cells and macros.
+    /// Returns the side in micrometres of a pixel under which the circuit of its region fits: the N
+    /// x N pixels of a region together have as much area as a region's share of cells and macros.
     #[must_use]
     pub fn pixel_pitch_um(&self) -> f64 {
         let of_region = self.area_mm2() * 1e6 / count_to_f64(self.regions);

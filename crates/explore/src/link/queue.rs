@@ -100,8 +100,8 @@ impl Timeline {
     /// microseconds.
     ///
     /// # Errors
-    /// Fails if there are fewer than two frames, if a frame does not begin after the one before, or if
-    /// the clip lasts more than 2^63 - 1 ns.
+    /// Fails if there are fewer than two frames, if a frame does not begin after the one before, or
+    /// if the clip lasts more than 2^63 - 1 ns.
     pub fn new(clip: &str, times_us: &[u64], rows: u32) -> Result<Self, LinkError> {
         let (&[first, ..], &[.., last]) = (times_us, times_us) else {
             return Err(LinkError::TooFewFrames { clip: clip.to_owned(), frames: 0 });

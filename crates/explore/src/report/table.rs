@@ -12,7 +12,8 @@ use foveate_output::page::{HeadingFigure, TableCell, TableColumn, TableRow};
 use foveate_output::tables::{NamedCells, TableCell as FileCell};
 use std::collections::HashMap;
 
-/// The figures, a line each: a column of `points.csv`, the heading, its unit, the form of the number, and its meaning.
+/// The figures, a line each: a column of `points.csv`, the heading, its unit, the form of the
+/// number, and its meaning.
 const FIGURES: &str = include_str!("../../templates/figures.txt");
 
 /// The cells of a point by the columns of `points.csv`.
@@ -20,8 +21,8 @@ type PointFigures = HashMap<String, FileCell>;
 
 struct FigureColumn {
     key: &'static str,
-    /// The form of the number: `percent`, `millions`, or digits after the point. `decibels` of equal frames are not
-    /// known, and `on_clip` adds the worst clip to the percentage.
+    /// The form of the number: `percent`, `millions`, or digits after the point. `decibels` of
+    /// equal frames are not known, and `on_clip` adds the worst clip to the percentage.
     form: &'static str,
     heading: TableColumn,
 }

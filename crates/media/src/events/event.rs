@@ -37,7 +37,8 @@ impl EventFormat {
     pub fn max_side(self) -> u32 {
         match self {
             Self::Evt2 | Self::Evt3 => 1 << 11,
-            // A coordinate has 16 bits with a sign, and so has the number of columns in some readers.
+            // A coordinate has 16 bits with a sign, and so has the number of columns in some
+            // readers.
             Self::Aedat4 => (1 << 15) - 1,
         }
     }

@@ -55,8 +55,8 @@ impl VideoClock {
         }
     }
 
-    /// Returns the time of the next frame, whose time in the container is `stated_us`. `frame` is its
-    /// number.
+    /// Returns the time of the next frame, whose time in the container is `stated_us`. `frame` is
+    /// its number.
     pub(super) fn time_us(&mut self, frame: u64, stated_us: i128) -> u64 {
         let last_us = self.last_us.unwrap_or(0);
         let mut time_us = stated_us + self.delay_us;
@@ -123,8 +123,8 @@ pub(super) fn start(
     probe: &VideoProperties,
     start_us: u64,
 ) -> Result<Option<SeekResult>, FootageError> {
-    // Recordings that were joined have the duration of the first one, or none. In them a time is that
-    // of several frames.
+    // Recordings that were joined have the duration of the first one, or none. In them a time is
+    // that of several frames.
     let is_within = probe.duration_s.is_some_and(|seconds| {
         Duration::try_from_secs_f64(seconds).is_ok_and(|all| all > Duration::from_micros(start_us))
     });

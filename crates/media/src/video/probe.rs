@@ -135,8 +135,9 @@ impl VideoProperties {
         })
     }
 
-    /// Returns true if black is 16 and white is 235, of 8 bits, in the luma of the stream. Grey formats have all
-    /// values, whatever range is stated, as in ffmpeg. Other streams that state no range have the narrow one.
+    /// Returns true if black is 16 and white is 235, of 8 bits, in the luma of the stream. Grey
+    /// formats have all values, whatever range is stated, as in ffmpeg. Other streams that state no
+    /// range have the narrow one.
     pub(super) fn has_narrow_range(&self) -> bool {
         let starts =
             |prefixes: &[&str]| prefixes.iter().any(|own| self.pixel_format.starts_with(own));
@@ -144,8 +145,8 @@ impl VideoProperties {
     }
 }
 
-/// Returns the turn of a display matrix, as ffprobe prints it: three lines of three numbers, of which 65536 is
-/// one.
+/// Returns the turn of a display matrix, as ffprobe prints it: three lines of three numbers, of
+/// which 65536 is one.
 fn turn_of_matrix(text: &str) -> Result<FrameTurn, String> {
     let rows = text.lines().filter_map(|line| line.split_once(':'));
     let numbers: Vec<i64> = rows
@@ -243,7 +244,8 @@ pub(super) struct StreamChoice {
 /// Chooses a stream of the file `name`.
 ///
 /// # Errors
-/// Fails if there is no video stream, or not the one that is wanted. The message says what there is.
+/// Fails if there is no video stream, or not the one that is wanted. The message says what there
+/// is.
 pub(super) fn choose(
     name: &str,
     streams: &[VideoStream],

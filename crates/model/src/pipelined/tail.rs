@@ -147,8 +147,8 @@ impl RpuTail {
         })
     }
 
-    /// Returns the class of the region in the frame that is decided in this clock, in which the frame
-    /// of the last tail step is complete.
+    /// Returns the class of the region in the frame that is decided in this clock, in which the
+    /// frame of the last tail step is complete.
     fn decided_class(&self, plan: &RpuParameters) -> RegionClass {
         if plan.second_pass { self.registers.class_before } else { self.registers.class }
     }

@@ -22,8 +22,8 @@ pub(super) struct CompletedRegion {
     pub(super) class: RegionClass,
 }
 
-/// A region of one frame with its scores and relevance bits, before its decision is on the ports. It
-/// is boxed, because it goes from queue to queue.
+/// A region of one frame with its scores and relevance bits, before its decision is on the ports.
+/// It is boxed, because it goes from queue to queue.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct ScoredRasterRegion {
     pub(super) region: u32,

@@ -34,8 +34,8 @@ pub(crate) struct ConvOutputs<'a, T = f32> {
     pub(crate) width: usize,
 }
 
-/// Computes the channels of `outputs` at the chunks, whose positions `outputs` holds. The activation
-/// is applied to every output.
+/// Computes the channels of `outputs` at the chunks, whose positions `outputs` holds. The
+/// activation is applied to every output.
 pub(crate) fn convolve(
     level: InstructionSet,
     picture: &ConvInput<'_>,

@@ -74,8 +74,8 @@ pub trait VectorPixel:
     fn square(self) -> Self::SquareSum;
     /// Returns 1 for true and 0 for false.
     fn from_hit(hit: bool) -> Self;
-    /// Returns a sixteenth of the sum, rounded to the nearest integer; a half is rounded up. It must
-    /// fit into the type.
+    /// Returns a sixteenth of the sum, rounded to the nearest integer; a half is rounded up. It
+    /// must fit into the type.
     fn rounded_sixteenth(sum: Self::ColumnSum) -> Self;
     /// Converts a number that fits into the type; higher bits would be cut off.
     fn from_low_bits(value: u32) -> Self;

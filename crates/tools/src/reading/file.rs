@@ -127,8 +127,8 @@ impl<R> LimitedReader<R> {
 /// The first bytes of a gzipped file.
 pub const GZIP_MAGIC: [u8; 2] = [0x1F, 0x8B];
 
-/// Returns the content of a file, unpacked if it is gzipped. The content may be much larger than the
-/// file, so the caller limits it.
+/// Returns the content of a file, unpacked if it is gzipped. The content may be much larger than
+/// the file, so the caller limits it.
 ///
 /// # Errors
 /// Fails if the first bytes cannot be read.

@@ -136,7 +136,8 @@ impl StreamInfo {
     }
 }
 
-/// Returns the XML of a file with one stream of events. Readers of iniVation find a stream by its output name.
+/// Returns the XML of a file with one stream of events. Readers of iniVation find a stream by its
+/// output name.
 pub(super) fn stream_info_text((width, height): (u32, u32)) -> String {
     let text =
         |key: &str, value: &str| format!("<attr key=\"{key}\" type=\"string\">{value}</attr>\n");

@@ -22,7 +22,8 @@ pub(crate) struct EvtHeader {
     pub(crate) bytes: u64,
 }
 
-/// Returns the text of a header. The lines are those that cameras write, as far as they concern the events.
+/// Returns the text of a header. The lines are those that cameras write, as far as they concern the
+/// events.
 pub(crate) fn header_text(version: EvtVersion, (width, height): (u32, u32)) -> String {
     let name = match version {
         EvtVersion::Evt2 => "EVT2",
