@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The build of a project: writes its files, runs its script, and reads the results. The
-//! scripts that make a bitstream. `foveate build` runs those of open tools.
+//! A bitstream is made from a folder: [`write_project`] fills it, and [`build`] runs its script
+//! and reads the [`BuildResult`] from the reports that the tools leave there. The scripts
+//! ([`script_files`]) are in the same module, because the build relies on the files that they
+//! write. There are scripts for open tools, which [`build`] runs, and for Vivado.
 
 use super::text_forms::{rendered, source_file};
 use crate::board::{Board, DeviceFamily};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The files of a project. The README of a project.
+//! The list of all files of a project ([`BoardProject::files`]), and its README, which
+//! describes them.
 
 use super::build;
 use super::text_forms::{rendered, source_file};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A design on a board. The check that a design fits a board, behind a sensor or a pattern.
+//! A design on a board ([`BoardProject`]), which is made only if the design fits the board,
+//! behind a sensor or a pattern ([`check_fit`]).
 
 use crate::BoardError;
 use crate::board::{Board, DeviceFamily, SensorPins};

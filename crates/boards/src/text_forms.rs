@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The check of the characters in the texts of a file. The texts appear in scripts and pages,
-//! so each text must be a plain word. The keys that need other characters are listed with the
-//! form of their text. A key that is not listed, as one that is added later, takes only a plain
-//! word. Files, and filled templates.
+//! The safety of texts that are copied from the file of a board or a sensor into scripts and
+//! pages: every text must be a plain word, unless its key is among the [`FORMS`], which allow
+//! it other characters. So a key that is added later takes only a plain word. Checked texts
+//! become files of a project with [`rendered`] and [`source_file`].
 
 use askama::Template;
 use foveate_emit::SourceFile;

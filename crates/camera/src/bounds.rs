@@ -73,8 +73,8 @@ impl Camera {
         bounds
     }
 
-    /// Returns the valid fraction bits of the mean of one feature, which has `bits` now. The mean of
-    /// two features cannot be changed by the key of only one of them.
+    /// Returns the valid fraction bits of the mean of one feature, which has `bits` now. The mean
+    /// of two features cannot be changed by the key of only one of them.
     fn mean_fraction_bound(&self, feature: &SpatialFeature, bits: u32) -> KeyBound {
         let entries = self.config().spatial.iter();
         let largest = index_bits(self.region_pixels().into());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Areas of a frame that have a class: rectangles and polygons in pixels, and the map of the regions
-//! that follows from them.
+//! Areas of a frame that have a class: rectangles and polygons in pixels, and the map of the
+//! regions that follows from them.
 
 use crate::base_classes::BaseClasses;
 use crate::{AreaConfig, CameraConfig, ConfigError, MAX_SIDE, RegionClass};
@@ -27,8 +27,8 @@ fn polygon_sides(corners: &[[u32; 2]]) -> impl Iterator<Item = [[u32; 2]; 2]> {
     corners.iter().zip(next).map(|(&from, &to)| [from, to])
 }
 
-/// Returns the number of pixels of row `y` whose centers lie on the left of a side, or `None` if the
-/// side does not cross the line through these centers.
+/// Returns the number of pixels of row `y` whose centers lie on the left of a side, or `None` if
+/// the side does not cross the line through these centers.
 fn pixels_left_of_side([from, to]: [[u32; 2]; 2], y: u32) -> Option<u32> {
     // Coordinates are doubled, so that centers are whole numbers.
     let [[x1, y1], [x2, y2]] = [from, to].map(|corner| corner.map(|value| 2 * i64::from(value)));
@@ -36,8 +36,8 @@ fn pixels_left_of_side([from, to]: [[u32; 2]; 2], y: u32) -> Option<u32> {
     if (y1 > center) == (y2 > center) {
         return None;
     }
-    // The side is at `over / below` in this row; the center 2x + 1 of pixel x is on the left of it if
-    // x < (over - below) / (2 * below).
+    // The side is at `over / below` in this row; the center 2x + 1 of pixel x is on the left of it
+    // if x < (over - below) / (2 * below).
     let sign = (y2 - y1).signum();
     let (over, below) = (x1 * (y2 - y1) + (center - y1) * (x2 - x1), y2 - y1);
     let (over, below) = (sign * over, sign * below);
@@ -94,10 +94,10 @@ pub(crate) fn check_areas(
     Ok(())
 }
 
-/// Returns the classes of the regions of a frame, row by row. Each region has the class that most of
-/// its pixels have; pixels outside of all areas have the class of `base`, and the padding does not
-/// count. Of classes with equally many pixels, the one that sends more counts: `always`, `keen`,
-/// `normal`, `off`.
+/// Returns the classes of the regions of a frame, row by row. Each region has the class that most
+/// of its pixels have; pixels outside of all areas have the class of `base`, and the padding does
+/// not count. Of classes with equally many pixels, the one that sends more counts: `always`,
+/// `keen`, `normal`, `off`.
 pub(crate) fn classes_of_areas(
     base: &BaseClasses,
     areas: &[AreaConfig],

@@ -26,8 +26,8 @@ impl Camera {
         }
     }
 
-    /// Returns the thresholds of the regions of a class. In a camera without zones they are the same
-    /// for all classes.
+    /// Returns the thresholds of the regions of a class. In a camera without zones they are the
+    /// same for all classes.
     #[must_use]
     pub fn class_thresholds(&self, class: RegionClass) -> ClassThresholds<'_> {
         let own = ClassThresholds {

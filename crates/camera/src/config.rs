@@ -94,8 +94,8 @@ pub struct FrameConfig {
 }
 
 impl FrameConfig {
-    /// Returns true if both sides are written. Otherwise the size may be that of an input that is not
-    /// known yet.
+    /// Returns true if both sides are written. Otherwise the size may be that of an input that is
+    /// not known yet.
     pub(crate) fn has_size(&self) -> bool {
         self.width.is_some() && self.height.is_some()
     }
@@ -150,10 +150,10 @@ pub struct SpatialConfig {
     /// of 0 a level may be up to 6*(2^P-1) for `edge`, and up to 2^P-1 for the other two.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub level: Option<u32>,
-    /// Per-region threshold: pixels for `edge`, `corner` (default 5) and `segment` (default 8), grey
-    /// levels for `mad`, `surface` (default 5), `range` (default 20) and `flow` (default 2), squared
-    /// grey levels for `variance` (default 50). In grey levels and their squares it may be decimal;
-    /// its default is that of 8 bits, and is scaled to the depth.
+    /// Per-region threshold: pixels for `edge`, `corner` (default 5) and `segment` (default 8),
+    /// grey levels for `mad`, `surface` (default 5), `range` (default 20) and `flow` (default 2),
+    /// squared grey levels for `variance` (default 50). In grey levels and their squares it may be
+    /// decimal; its default is that of 8 bits, and is scaled to the depth.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub min_score: Option<Decimal>,
     /// Fraction bits of the mean of `mad` and `segment`, 0..=ceil(log2 n). The default is 0. A

@@ -12,8 +12,8 @@
 //! shrinks by 2^k. Hits are differences above a level L. For a whole number m', m' > L / 2^k
 //! exactly when m' > floor(L / 2^k), so levels are divided and rounded down. `min_score` of `mad`,
 //! `surface` and `flow` is a mean of differences and that of `range` a difference; they are divided
-//! by 2^k. `min_score` of `variance` is a mean of squared differences and is divided by 4^k. All five
-//! are rounded up at the ninth digit. Counts of pixels stay as they are.
+//! by 2^k. `min_score` of `variance` is a mean of squared differences and is divided by 4^k. All
+//! five are rounded up at the ninth digit. Counts of pixels stay as they are.
 
 use std::fmt::Display;
 

@@ -108,15 +108,15 @@ impl SpatialFeature {
     }
 
     /// Returns the largest valid level of the configuration, or `None` if the feature has no
-    /// per-pixel threshold. With any valid level some region can have a score above 0. A feature with
-    /// a minimum score of 0 always votes, so every level is valid.
+    /// per-pixel threshold. With any valid level some region can have a score above 0. A feature
+    /// with a minimum score of 0 always votes, so every level is valid.
     #[must_use]
     pub fn largest_level(&self) -> Option<u32> {
         self.largest_level
     }
 
-    /// Returns true if only a minimum score of 0 is valid, because no region has a score above 0 with
-    /// the level.
+    /// Returns true if only a minimum score of 0 is valid, because no region has a score above 0
+    /// with the level.
     pub(crate) fn needs_zero_minimum(&self, pixel_max: u32) -> bool {
         self.never_scores(pixel_max, self.mean.map_or(0, |mean| mean.fraction_bits))
     }
@@ -126,8 +126,8 @@ impl SpatialFeature {
         self.min_score != 0 && self.never_scores(pixel_max, 0)
     }
 
-    /// Returns true if no region has a score above 0 with the level and so many fraction bits of the
-    /// mean.
+    /// Returns true if no region has a score above 0 with the level and so many fraction bits of
+    /// the mean.
     fn never_scores(&self, pixel_max: u32, fraction_bits: u32) -> bool {
         let largest = self.kind.largest_deciding_level(pixel_max, fraction_bits);
         self.level.is_some_and(|level| largest.is_none_or(|largest| level > largest))
@@ -220,8 +220,8 @@ impl SpatialEntry<'_> {
         format!("{}.{name}", self.path)
     }
 
-    /// Checks the level. `largest` is the largest valid one, or `None` if none is valid, and `max` the
-    /// largest magnitude that a level is compared with.
+    /// Checks the level. `largest` is the largest valid one, or `None` if none is valid, and `max`
+    /// the largest magnitude that a level is compared with.
     fn level(&self, max: Option<u32>, largest: Option<u32>) -> Result<Option<u32>, ConfigError> {
         let (level, max) = match (self.config.level, max) {
             (None, _) => return Ok(None),
@@ -244,8 +244,8 @@ impl SpatialEntry<'_> {
         Err(self.out_of_range_error("level", &level, &valid, &hint))
     }
 
-    /// Returns the error for a feature whose mean of pixels of 1 bit is a pixel, so that no pixel is
-    /// on its other side.
+    /// Returns the error for a feature whose mean of pixels of 1 bit is a pixel, so that no pixel
+    /// is on its other side.
     fn whole_mean_error(&self) -> ConfigError {
         ConfigError::Combination {
             key: self.key("mean_fraction_bits"),

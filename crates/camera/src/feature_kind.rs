@@ -176,8 +176,8 @@ impl FeatureKind {
     }
 
     /// Returns the largest level with which a region can have a score above 0, or `None` if every
-    /// region has the score 0 or the feature has no such threshold. A mean of `segment` must be more
-    /// than the level away from both ends of the range of pixels; it is a whole number if
+    /// region has the score 0 or the feature has no such threshold. A mean of `segment` must be
+    /// more than the level away from both ends of the range of pixels; it is a whole number if
     /// `fraction_bits` is 0.
     pub(crate) fn largest_deciding_level(self, pixel_max: u32, fraction_bits: u32) -> Option<u32> {
         match self {

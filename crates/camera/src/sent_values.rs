@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The size of the output of a camera: two bits per region and frame, the displacement of the
-//! region if the camera has `flow`, and values of P bits.
+//! The effect of a decision: what a region sends, how the screen shows it ([`RegionAction`]),
+//! and when the reference is written ([`ReferenceWriteTime`]). A region and frame take two
+//! bits, the displacement if the camera has `flow`, and values of P bits.
 //!
 //! | bits | the region | values that follow |
 //! | --- | --- | --- |
@@ -9,12 +10,11 @@
 //! | 10 | SRS = 1, TRS = 0 | none |
 //! | 11 | active | its pixels, without padding |
 //!
-//! The two bits say what happens to every region, so no addresses are sent. A displacement has the
-//! bits of dx and dy: 4 for a radius of 1, and 6 for a larger one.
+//! The two bits say what happens to every region, so no addresses are sent. A displacement has
+//! the bits of dx and dy: 4 for a radius of 1, and 6 for a larger one.
 //!
-//! The effect of a decision on a region of the screen. The demands of a reference on the
-//! hardware that stores it. A new reference must be added to every match here. Each
-//! implementation of the camera defines what it computes with the reference.
+//! The last part of this module is what a reference demands of the hardware that stores it. A
+//! new reference must be added to every match there.
 
 use crate::{Camera, Periphery, ReferencePolicy};
 

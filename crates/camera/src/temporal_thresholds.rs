@@ -5,8 +5,8 @@ use crate::depth::{self, DEFAULT_BITS};
 use crate::ranges::{check_range, largest_level};
 use crate::{CameraConfig, ConfigError};
 
-/// Checks the thresholds of a temporal score, whose keys are in the table `table`. Some pixel must be
-/// able to exceed the level, unless the minimum count is 0.
+/// Checks the thresholds of a temporal score, whose keys are in the table `table`. Some pixel must
+/// be able to exceed the level, unless the minimum count is 0.
 pub(crate) fn check_temporal_thresholds(
     config: &CameraConfig,
     table: &str,

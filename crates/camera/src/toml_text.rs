@@ -68,8 +68,9 @@ impl CameraConfig {
     ///
     /// Thresholds in grey levels belong to the depth that they are written with: an override of
     /// `frame.pixel_bits` scales the thresholds of the text. Thresholds in other overrides are not
-    /// scaled. An override of `render.irrelevant` with another value than `"mean"` removes the table
-    /// `periphery` of the text and the levels of means in `zones`, which have a meaning only with means.
+    /// scaled. An override of `render.irrelevant` with another value than `"mean"` removes the
+    /// table `periphery` of the text and the levels of means in `zones`, which have a meaning only
+    /// with means.
     ///
     /// # Errors
     /// Returns the errors of [`CameraConfig::from_toml`], and an error for an override that is not

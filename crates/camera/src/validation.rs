@@ -105,8 +105,8 @@ impl CameraConfig {
         Ok(())
     }
 
-    /// Sets another frame size. The classes and areas of zones are left out, because they belong to a
-    /// frame of the old size; all regions are then normal.
+    /// Sets another frame size. The classes and areas of zones are left out, because they belong to
+    /// a frame of the old size; all regions are then normal.
     pub fn resize_frame(&mut self, width: u32, height: u32) {
         (self.frame.width, self.frame.height) = (Some(width), Some(height));
         if let Some(zones) = &mut self.zones {

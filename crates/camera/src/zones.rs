@@ -92,8 +92,8 @@ impl Zones {
     }
 }
 
-/// Adds to the error of a level of keen regions which key it comes from, because the keen key is left
-/// out.
+/// Adds to the error of a level of keen regions which key it comes from, because the keen key is
+/// left out.
 fn naming_inherited_level(error: ConfigError, own_key: &str) -> ConfigError {
     match error {
         ConfigError::Range { key, value, valid } if key.ends_with(".level") => {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The table `[zones]` of a configuration: areas with classes, the thresholds of `keen` regions, and
-//! the level of `off` regions.
+//! The table `[zones]` of a configuration: areas with classes, the thresholds of `keen` regions,
+//! and the level of `off` regions.
 
 use crate::depth;
 use crate::{Decimal, FeatureKind, RegionClass};
@@ -10,8 +10,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ZonesConfig {
-    /// The path of an image with the class of each region or pixel. A reader of files replaces it by
-    /// `classes`.
+    /// The path of an image with the class of each region or pixel. A reader of files replaces it
+    /// by `classes`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub map: Option<String>,
     /// The codes of classes, a string of digits for each row: one digit for each region, or one for

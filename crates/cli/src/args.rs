@@ -320,7 +320,8 @@ pub(crate) struct EstimateArgs {
     /// and without the median, and with edge and each other filter
     #[arg(long)]
     pub(crate) compare: bool,
-    /// List the modules of an RPU, a lane or a core, too, each synthesized apart. The JSON always has them
+    /// List the modules of an RPU, a lane or a core, too, each synthesized apart. The JSON always
+    /// has them
     #[arg(long, conflicts_with_all = ["compare", "place_and_route"])]
     pub(crate) modules: bool,
     /// Place and route the design with nextpnr instead, and print its use of these devices and the
@@ -340,8 +341,8 @@ pub(crate) struct EstimateArgs {
     #[arg(long, requires = "place_and_route")]
     pub(crate) portable: bool,
     /// Map the design to the cells of a liberty file, plain or gzipped, and print its area on
-    /// silicon, its longest path and its leakage. Without a file, the cells are those of
-    /// Debian's package `qflow-tech-osu018`, of 0.18 um. Each further --liberty makes a further report
+    /// silicon, its longest path and its leakage. Without a file, the cells are those of Debian's
+    /// package `qflow-tech-osu018`, of 0.18 um. Each further --liberty makes a further report
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = DEFAULT_LIBERTY, conflicts_with_all = ["compare", "place_and_route"])]
     pub(crate) liberty: Vec<PathBuf>,
     /// Liberty files of memory macros of the same voltage, for memories that are too large for
@@ -352,8 +353,9 @@ pub(crate) struct EstimateArgs {
     /// `foveate cosim --rtl` simulates it
     #[arg(long, value_name = "FILE", requires = "liberty")]
     pub(crate) netlist: Option<PathBuf>,
-    /// Measure the energy, too: simulate the gates of one RPU or lane on the frames of this clip, and
-    /// add up the energies of the library over all changes. The design takes the size of the clip
+    /// Measure the energy, too: simulate the gates of one RPU or lane on the frames of this clip,
+    /// and add up the energies of the library over all changes. The design takes the size of the
+    /// clip
     #[arg(long, value_name = "CLIP", requires = "liberty")]
     pub(crate) activity: Option<PathBuf>,
     /// Take at most this many frames of the clip of --activity

@@ -2,8 +2,8 @@
 //! The signals that ask the program to stop: Ctrl-C, SIGTERM (containers, Slurm, systemd) and
 //! SIGHUP (a terminal that is closed). A thread receives them, whatever the command waits for.
 //!
-//! * Before [`stop_flag`] is called, a command has nothing to keep, and the first signal ends it and its
-//!   tools at once.
+//! * Before [`stop_flag`] is called, a command has nothing to keep, and the first signal ends it
+//!   and its tools at once.
 //! * After that, the first signal only makes a request. The command then keeps what is done, and
 //!   ends by itself.
 //! * A further signal ends the command at once, unless it is a repetition of the first one by

@@ -25,7 +25,8 @@ pub(crate) fn read_macros(paths: &[PathBuf]) -> Result<Vec<LibertyLibrary>, CliE
     Ok(paths.iter().map(|path| LibertyLibrary::read(path)).collect::<Result<_, _>>()?)
 }
 
-/// Reads the process of the options, if there is one. Faults of its libraries are found here, before a long run.
+/// Reads the process of the options, if there is one. Faults of its libraries are found here,
+/// before a long run.
 pub(crate) fn read_process(args: &ProcessArgs) -> Result<Option<TargetProcess>, CliError> {
     let Some(path) = &args.liberty else { return Ok(None) };
     let library = read_library(path)?;

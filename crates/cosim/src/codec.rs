@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The conversion of a core's inputs and outputs to records. Vectors as text for a replay
-//! bench. A line has only the values that change, and a stretch of equal clocks is one line.
+//! The clocks of a core in the two forms that are stored: as records of its inputs and outputs
+//! ([`RecordCodec`]), and as text for a replay bench ([`VectorPacker`]). A line of the text has
+//! only the values that change, and a stretch of equal clocks is one line.
 
 use super::layout::RecordField;
 use crate::layout::RecordLayout;

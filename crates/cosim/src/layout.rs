@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Packed records: the inputs, or the outputs, of one clock as bytes.
+//! Packed records: the inputs, or the outputs, of one clock as bytes ([`RecordLayout`]).
 //!
-//! A record holds the ports in the order of the port list, without the clock. Each port takes
-//! `ceil(bits / 8)` bytes, lowest byte first; bits above the port's are 0. Lanes lie side by side
-//! as in the Verilog vector: lane i takes bits `i * width ..= i * width + width - 1`. So the bytes
-//! of a port, read as one little-endian number, are the value of the Verilog vector.
-//!
-//! The place of one port in a record.
+//! A record holds the ports in the order of the port list, without the clock, each as a
+//! [`RecordField`]. Each port takes `ceil(bits / 8)` bytes, lowest byte first; bits above the
+//! port's are 0. Lanes lie side by side as in the Verilog vector: lane i takes bits `i * width
+//! ..= i * width + width - 1`. So the bytes of a port, read as one little-endian number, are
+//! the value of the Verilog vector.
 
 use crate::gate::ComparisonGate;
 use foveate_design::{OutputQualifier, Port, PortDirection, PortRole};

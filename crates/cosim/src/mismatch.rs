@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A mismatch in terms of the vectors: every port that differs, with its place and time. The
-//! region to which a differing value belongs. The search for the first difference of each port:
-//! in two files of records, or in the output of a replay bench.
+//! The first difference between a simulation and its recording, in terms of the vectors: every
+//! port that differs, with its place, its time and its region ([`Mismatch`]). Differences are
+//! found in two files of records ([`compare`]), or in the output of a replay bench
+//! ([`parse_mismatch`]).
 
 use crate::core_activity::{CoreActivity, core_activities};
 use crate::error::CosimError;

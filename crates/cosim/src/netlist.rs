@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The netlist that synthesis makes of the RTL, which is simulated instead of it.
+//! The netlist that synthesis makes of the RTL ([`Netlist`]), which is simulated instead of it
+//! with models of its cells.
 //!
-//! It is the netlist that the area estimate counts, of the same Yosys run, with
-//! models of its cells. Memories start unknown, and so do registers without an
-//! initial value, so that an X shows even where the RTL would not have one. Registers with an
-//! initial value start with it, as on the device.
+//! It is the netlist that the area estimate counts, of the same Yosys run. Memories start
+//! unknown, and so do registers without an initial value, so that an X shows even where the RTL
+//! would not have one. Registers with an initial value start with it, as on the device.
 //!
-//! The simulation models of the cells of a netlist: those of Yosys, or our own where Yosys has
-//! none.
-//!
-//! Our models are for block RAM and DSP, and only for the modes that Yosys uses for a design. Any
-//! other mode is refused when the netlist is compiled.
+//! The models ([`cell_models`]) are those of Yosys, or our own where Yosys has none: for block
+//! RAM and DSP, and only for the modes that Yosys uses for a design. Any other mode is refused
+//! when the netlist is compiled.
 
 use crate::error::CosimError;
 use crate::harness::render;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The folder that a failing run leaves. It reproduces the mismatch without Foveate. The core
-//! of a design as a folder: its Verilog with the files around it, its benches with their
-//! vectors, and its timing diagram.
+//! The folders with Verilog and benches that run without Foveate: that of a failing run, which
+//! reproduces the mismatch ([`write_replay`]), and that of the core of a design, which also has
+//! a timing diagram ([`write_core`]).
 
 use crate::error::CosimError;
 use crate::harness::{bench_file, bench_name, render, replay_bench};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The result of a co-simulation, for people and for programs. The result of one check of a
-//! design: its runs, and the Verilog and parameter values that no run reached. Results as JUnit
-//! XML, which test servers read.
+//! The results of co-simulation, for people and for programs: of one run ([`CosimReport`]), of
+//! all runs of a design with the Verilog and parameter values that none of them reached
+//! ([`CosimSummary`]), and as JUnit XML, which test servers read ([`junit_xml`]).
 
 use crate::elaboration::UnelaboratedVariant;
 use crate::hierarchy::UnsimulatedModules;

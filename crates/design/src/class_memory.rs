@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The memory of classes of a serial or raster core with zones, by the rules of `docs/zones.md`: its
-//! words and its ports.
+//! The memory of classes of a serial or raster core with zones, by the rules of `docs/zones.md`:
+//! its words and its ports.
 
 use crate::interface::{CoreStream, StreamRole};
 use crate::{Design, Hardware, Port, PortDirection, PortRole};
@@ -16,7 +16,8 @@ pub const CLASS_BITS: u32 = 2;
 pub const CLASS_WORD_BITS: u32 = CLASSES_PER_WORD * CLASS_BITS;
 
 impl Design {
-    /// Returns true if the core has a memory of classes. A pipelined core takes classes at its ports.
+    /// Returns true if the core has a memory of classes. A pipelined core takes classes at its
+    /// ports.
     #[must_use]
     pub fn has_class_memory(&self) -> bool {
         match self.hardware() {
@@ -38,8 +39,8 @@ impl Design {
     }
 }
 
-/// Returns the word with the codes of up to [`CLASSES_PER_WORD`] classes, the first one in the lowest
-/// bits.
+/// Returns the word with the codes of up to [`CLASSES_PER_WORD`] classes, the first one in the
+/// lowest bits.
 #[must_use]
 pub fn class_word(classes: &[RegionClass]) -> u32 {
     classes.iter().rev().fold(0, |word, class| word << CLASS_BITS | u32::from(class.code()))

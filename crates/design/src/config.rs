@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The configuration file: the tables of a camera, and the table of the hardware that computes
-//! it. The defaults are those of the paper's design. The fingerprint of a design: a short hash
-//! of its configuration.
+//! The configuration file ([`DesignConfig`]): the tables of a camera and the table of the
+//! hardware that computes it, with the paper's design as the default. A validated configuration
+//! is identified by a short hash of its text ([`config_fingerprint`]).
 
 use crate::HardwareConfig;
 use crate::keys::HARDWARE_KEYS;

@@ -4,8 +4,9 @@
 //!
 //! A [`DesignConfig`] holds the keys that a user writes. [`DesignConfig::validate`] turns it into a
 //! [`Design`], which is immutable and gives latencies, memories, lists of ports and its
-//! fingerprint. It dereferences to its [`Camera`](foveate_camera::Camera), which is defined in the crate of that name. No
-//! other crate validates a configuration or derives a width again. This crate does no I/O.
+//! fingerprint. It dereferences to its [`Camera`](foveate_camera::Camera), which is defined in the
+//! crate of that name. No other crate validates a configuration or derives a width again. This
+//! crate does no I/O.
 
 mod choice;
 mod class_memory;

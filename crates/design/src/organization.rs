@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The unit, the timing and the ports of a design.
-//!
-//! Each organization implements [`OrganizationRules`] in its own module, which
-//! defines these properties.
-//!
-//! The properties that every organization defines for its designs. The methods of `Design` in
-//! [`crate::organization`] return them. The features, filters, references, renderings and
-//! sources of thresholds that each organization supports. A new organization, or a new value of
-//! one of these keys, does not compile until it is entered here. A value that the organization
-//! does not support is refused by name.
+//! What the organizations have in common, and where they differ. Each implements
+//! [`OrganizationRules`] in its own module, and the methods of `Design` here return the unit,
+//! the timing and the ports by these rules. [`check_support`] refuses by name what an
+//! organization does not support. A new organization, or a new value of a key, does not compile
+//! until it is entered here.
 
 use crate::{
     CoreInterface, Design, DesignTiming, Hardware, HardwareConfig, Organization, Port,
@@ -265,8 +260,8 @@ mod tests {
         assert_eq!(refuse(&[Serial, Pipelined]), Err(both));
     }
 
-    /// Searches and studies try every reference and rendering without asking first, and all features
-    /// of the organization.
+    /// Searches and studies try every reference and rendering without asking first, and all
+    /// features of the organization.
     #[test]
     fn every_organization_supports_every_camera_with_its_features() {
         for &organization in Organization::ALL {

@@ -54,8 +54,8 @@ pub enum PortRole {
     OffSummaryLevel,
     /// The codes of the classes of regions, one per lane (`pipelined`, designs with zones).
     RegionClass,
-    /// A word of the map of classes is written (`serial` and `raster`, designs with zones; so are the
-    /// next four).
+    /// A word of the map of classes is written (`serial` and `raster`, designs with zones; so are
+    /// the next four).
     ClassWrite,
     /// The number of the word that is written.
     ClassAddress,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The thresholds of a design with their widths and values, and the input ports of those that are no
-//! constants.
+//! The thresholds of a design with their widths and values, and the input ports of those that are
+//! no constants.
 
 use crate::{Design, Port, PortDirection, PortRole, ThresholdSource};
 use foveate_camera::RegionClass;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The camera's choices as flags of the Verilog. A new kind of reference, or a new content of
-//! irrelevant regions, must be mapped to these flags before it can be generated. The parameters
-//! of `serial_array.v` and `raster_core.v` that belong to a feature or to the filter.
-//! Thresholds as inputs or constants, and the scores as words, for all organizations.
+//! The choices of a camera as the Verilog knows them: flags and numbers for parameters, inputs
+//! or constants for thresholds ([`threshold_signal`], [`threshold_constants`]), and words for
+//! scores. A new kind of reference, or a new content of irrelevant regions, must be mapped to
+//! these flags before it can be generated.
 
 use foveate_camera::{Camera, DenoiseFilter, FeatureKind, IrrelevantRendering, ReferencePolicy};
 use foveate_design::{Design, DesignThreshold, Port, PortRole, ThresholdSource};

@@ -356,8 +356,8 @@ fn level_inputs(design: RasterDesign<'_>) -> Vec<(String, String)> {
     list
 }
 
-/// Returns the minima of all scores, that of the changed pixels last. `signal` returns the signal of
-/// a threshold.
+/// Returns the minima of all scores, that of the changed pixels last. `signal` returns the signal
+/// of a threshold.
 fn minima(design: RasterDesign<'_>, signal: ThresholdSignal) -> Vec<String> {
     let roles =
         features_in_core_order(design).into_iter().rev().map(|f| PortRole::MinScore(f.kind()));

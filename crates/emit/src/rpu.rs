@@ -289,8 +289,8 @@ fn window_feature(design: PipelinedDesign<'_>, feature: &SpatialFeature) -> Wind
     WindowFeature { name: kind.name(), level, parameters }
 }
 
-/// Returns the threshold of the class of a region. `keen` is the signal that says that the region is
-/// keen; a design without zones has no such signal.
+/// Returns the threshold of the class of a region. `keen` is the signal that says that the region
+/// is keen; a design without zones has no such signal.
 fn class_threshold(design: &Design, role: PortRole, keen: &str) -> String {
     let own = threshold_signal(design, role);
     match design.zones() {

@@ -326,8 +326,8 @@ fn half_level(
     }
 }
 
-/// Returns the minima of all scores, that of the last feature first. `signal` returns the signal of a
-/// threshold.
+/// Returns the minima of all scores, that of the last feature first. `signal` returns the signal of
+/// a threshold.
 fn minima(design: SerialDesign<'_>, signal: ThresholdSignal) -> Vec<String> {
     let width = design.max_score_bits();
     let minimum = |feature: &SpatialFeature| {

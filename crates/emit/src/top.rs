@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The modules that may be on top of a design: its RPU or lane, its array, and the core on AXI.
-//! The leaf `frame_sync`, which finds the frames of a stream again, in front of the array or
-//! core of a design with `hardware.sync`. The memory of classes of a serial array or a raster
-//! core: its parameters, and the signals that are connected to its ports. A design without
-//! zones connects constants.
+//! The module that is on top of a design ([`Top`], or [`AXI_TOP`] for a core on AXI), and what
+//! stands in it beside the array or core: the leaf that finds the frames of a stream again
+//! ([`FrameSync`]), and the memory of classes ([`class_connections`]), in whose place a design
+//! without zones has constants.
 
 use super::camera_flags::threshold_signal;
 use foveate_camera::RegionClass;
@@ -224,8 +223,8 @@ pub(crate) fn class_connections(design: &Design) -> [(&'static str, &'static str
     }
 }
 
-/// Returns the signal of the keen threshold that takes the place of this one. Without zones it is the
-/// signal of this threshold.
+/// Returns the signal of the keen threshold that takes the place of this one. Without zones it is
+/// the signal of this threshold.
 pub(crate) fn keen_signal(design: &Design, role: PortRole) -> String {
     threshold_signal(design, design.zones().map_or(role, |_| keen_role(role)))
 }

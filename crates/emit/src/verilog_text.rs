@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The parts of all generated Verilog: files, filled templates, and the ports of a header. An
-//! instance of `rcm` for a user's own Verilog: every port with its width, and thresholds with
-//! their values. A port of a core, in the form that the module around the core needs.
+//! The text of generated Verilog, as all templates share it: files ([`module_file`]), filled
+//! templates ([`rendered_text`]), and ports in each form in which a module names them: in its
+//! own header ([`PortLine`]), in a user's instance of `rcm` ([`instance`]), and in a module
+//! around it ([`WrappedPort`]).
 
 use super::camera_flags::threshold_value;
 use crate::prefix::module_path;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The search for regions that are bit-identical to the last frame, and the choice of the
-//! blocks that have to be computed. The comparison of frames that finds the regions that have
-//! changed, before anything is computed.
+//! The search for what has to be computed: a region that is bit-identical to the last frame
+//! keeps its results. [`ChangeSearch`] compares frames before anything is computed, and
+//! [`collect_runs`] chooses the blocks under the regions that may have other results
+//! ([`mark_affected`]).
 
 use crate::pixels::BorrowedFrame;
 use crate::plan::CameraPlan;

@@ -149,8 +149,8 @@ impl Engine {
         }
     }
 
-    /// Returns the engine to its reset state, with a black screen and without references. The classes
-    /// of the regions stay.
+    /// Returns the engine to its reset state, with a black screen and without references. The
+    /// classes of the regions stay.
     pub fn reset(&mut self) {
         match &mut self.core {
             EngineCore::Bytes(core) => core.reset(),

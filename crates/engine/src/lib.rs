@@ -5,8 +5,8 @@
 //! The model defines the results; this crate only makes them fast:
 //! - It makes one fused pass over a band of regions while the band is in the cache. A chain of
 //!   whole-frame operations would go through memory once per step.
-//! - It has plain loops over fixed blocks of elements, compiled for several instruction sets. The best
-//!   one for the processor is chosen at run time.
+//! - It has plain loops over fixed blocks of elements, compiled for several instruction sets. The
+//!   best one for the processor is chosen at run time.
 //! - It shares bands among threads; the results do not depend on the number of threads. Several
 //!   frames can be given to one call, [`Engine::step_batch_u8`].
 //! - It finds regions that are bit-identical to the last frame and skips them.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The summaries of irrelevant regions: means of blocks, the decision which of them are sent,
-//! and their place on the screen. The level of each element, which is the same one for all elements
-//! unless regions have classes.
+//! The summaries of irrelevant regions, which are means of blocks: they are computed
+//! ([`CurrentMeans`]), compared with what was sent last, and shown on the screen
+//! ([`SentSummaries`]). The level of the comparison is the same for all elements unless regions
+//! have classes ([`BlockLevels`]).
 
 use crate::outcome::RegionResults;
 use foveate_camera::RegionAction;
@@ -27,8 +28,8 @@ pub(crate) struct PeripheryPlan<T> {
 pub(crate) struct CurrentMeans<'a, T> {
     /// The means, row by row of blocks.
     pub(crate) means: &'a [T],
-    /// An output with one value per column of blocks: the largest difference of a mean of the column
-    /// from the mean that was sent last.
+    /// An output with one value per column of blocks: the largest difference of a mean of the
+    /// column from the mean that was sent last.
     pub(crate) differences: &'a mut [T],
     /// The regions whose pixels may have changed. The means of the other regions are not valid.
     pub(crate) affected: &'a [bool],

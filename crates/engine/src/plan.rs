@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A camera in the form that the kernels need: geometry as indices, thresholds as vectors. The
-//! thresholds of the classes of regions, in the form that the kernels need.
+//! A camera in the form that the kernels need: geometry as indices and thresholds as vectors
+//! ([`CameraPlan`]), also those of the classes of regions ([`ZonePlan`]).
 
 use crate::feature_passes::{FeaturePasses, FeaturePlan, feature_plans};
 use crate::periphery::PeripheryPlan;

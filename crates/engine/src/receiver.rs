@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The renderer alone: the screen of a receiver that gets actions, pixels and means over a
-//! link. It is the engine's own renderer, applied to the received pixels. The update of screen
-//! and references after the decision: copy, keep or clear each region.
+//! The renderer: it updates screen and references after the decision by copying, keeping or
+//! clearing each region ([`BandRenderer`]). A [`Receiver`] is this renderer alone, applied to
+//! what came over a link.
 //!
-//! The rendered frames of a batch. The caller keeps them from batch to batch.
-//!
-//! Most of a rendered frame is black, and was black in the frame that the buffer held before.
-//! Regions that are known to be black are not written again. This is why the buffers are not plain
-//! slices of the caller.
+//! The caller keeps the rendered frames of a batch from batch to batch ([`BatchScreens`]). Most
+//! of a rendered frame is black, and was black in the frame that the buffer held before, so
+//! regions that are known to be black are not written again. This is why the buffers are not
+//! plain slices of the caller.
 
 use crate::pixels::BorrowedFrame;
 use crate::plan::CameraPlan;

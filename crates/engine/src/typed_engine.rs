@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The engine for one type of pixels: the planes that are kept between frames, and their division among
-//! workers.
+//! The engine for one type of pixels: the planes that are kept between frames, and their division
+//! among workers.
 
 use std::iter;
 use std::ops::Range;

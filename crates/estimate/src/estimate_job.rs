@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Runs an estimate: one run of Yosys for unit and array, one for a core on AXI, and one for
-//! the leaves in parallel. The synthesis of a design: its unit, the array around it, the core
-//! on AXI, and their Verilog.
+//! An estimate and the runs of Yosys that it takes ([`EstimateJob`]): one for unit and array,
+//! one for a core on AXI, and one for the leaves, in parallel ([`estimate`]).
 
 use super::speed::ClockEstimate;
 use crate::bus::BusArea;

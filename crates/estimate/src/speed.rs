@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The frames per second at a clock: a given one, or the estimated one with its range. The
-//! clock frequency that a netlist is expected to reach, where no open program can place it. It
-//! follows from the slowest path by the delays of Yosys' cell models, with a fixed share for
-//! wires. `docs/clock.md` states how far the same estimate is from the results of nextpnr on
-//! ECP5, and what that means for other devices.
+//! The speed of a design: its frames per second ([`FrameRate`]) at a given clock, or at the
+//! clock that its netlist is expected to reach where no open program can place it
+//! ([`ClockEstimate`]).
+//!
+//! The estimate follows from the slowest path by the delays of Yosys' cell models, with a fixed
+//! share for wires. `docs/clock.md` states how far the same estimate is from the results of
+//! nextpnr on ECP5, and what that means for other devices.
 
 use crate::error::EstimateError;
 use crate::logic_levels::{CellLibrary, LogicPath, WIRING_SHARE, slowest_path};

@@ -56,8 +56,8 @@ pub(crate) struct ResultsByRtl<T> {
 }
 
 impl<T: Send> ResultsByRtl<T> {
-    /// Computes the result of every distinct RTL of some designs in parallel. `stage` reports how many are
-    /// done, and of how many.
+    /// Computes the result of every distinct RTL of some designs in parallel. `stage` reports how
+    /// many are done, and of how many.
     ///
     /// # Errors
     /// Fails if `hooks` cancels.

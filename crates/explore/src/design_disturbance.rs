@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The effect of disturbances on one design: its decisions and pixels on disturbed clips, against the ideal
-//! camera on the clips as they are, and where its flips come from.
+//! The effect of disturbances on one design: its decisions and pixels on disturbed clips, against
+//! the ideal camera on the clips as they are, and where its flips come from.
 
 use std::path::PathBuf;
 
@@ -22,13 +22,14 @@ pub struct DisturbanceRow {
     pub disturbance: String,
     /// The share of the regions whose action differs from the ideal's.
     pub flips: f64,
-    /// The share of the ideal's active area that is not active in the design, without first frames; 0 without
-    /// such an area.
+    /// The share of the ideal's active area that is not active in the design, without first frames;
+    /// 0 without such an area.
     pub missed: f64,
-    /// The share of the design's active area that is not active in the ideal, without first frames. If the ideal
-    /// is never active, the share of the whole area.
+    /// The share of the design's active area that is not active in the ideal, without first frames.
+    /// If the ideal is never active, the share of the whole area.
     pub false_alarms: f64,
-    /// The PSNR of the design's screen against the ideal's in dB; `None` if the screens are identical.
+    /// The PSNR of the design's screen against the ideal's in dB; `None` if the screens are
+    /// identical.
     pub psnr_ideal: Option<f64>,
     /// The bytes per frame that leave the camera.
     pub bytes_per_frame: f64,
@@ -48,7 +49,8 @@ pub struct DisturbedDesign {
 /// Measures a camera over all frames of some clips. `task` is the ideal camera.
 ///
 /// # Errors
-/// Fails if a clip cannot be read, if a configuration is not valid for its frames, or if `hooks` cancels.
+/// Fails if a clip cannot be read, if a configuration is not valid for its frames, or if `hooks`
+/// cancels.
 pub fn disturb_design(
     (config, task): (&CameraConfig, &CameraConfig),
     inputs: &[PathBuf],

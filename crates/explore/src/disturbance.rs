@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Disturbances of a clip, which cameras see while the ideal camera sees the clip itself. They act on
-//! the frames at the depth of the task, and are the same on every machine.
+//! Disturbances of a clip, which cameras see while the ideal camera sees the clip itself. They act
+//! on the frames at the depth of the task, and are the same on every machine.
 
 use std::fmt;
 use std::str::FromStr;
@@ -19,8 +19,8 @@ const GAIN_FRAMES: u64 = 60;
 /// A disturbance of a clip. Levels are grey levels of 8 bits, and scaled to other depths.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Disturbance {
-    /// Gaussian noise with this standard deviation, above 0; each frame has its own, as with `foveate
-    /// infer --noise`.
+    /// Gaussian noise with this standard deviation, above 0; each frame has its own, as with
+    /// `foveate infer --noise`.
     Noise(f64),
     /// Compression as JPEG at this quality, 1..=100.
     Jpeg(u8),
@@ -30,10 +30,11 @@ pub enum Disturbance {
     Gain(f64),
     /// All pixels are multiplied by this factor, and clipped at white.
     Saturation(f64),
-    /// Every frame is moved by up to so many pixels in both directions; pixels of the border are repeated.
+    /// Every frame is moved by up to so many pixels in both directions; pixels of the border are
+    /// repeated.
     Shake(u8),
-    /// The first frame again and again, with noise of this standard deviation, 0 for none. The ideal camera
-    /// sees the still picture without noise.
+    /// The first frame again and again, with noise of this standard deviation, 0 for none. The
+    /// ideal camera sees the still picture without noise.
     Still(f64),
 }
 
@@ -97,7 +98,8 @@ impl FromStr for Disturbance {
     }
 }
 
-/// The frames that the ideal camera and the other cameras see in place of a frame; `None` is the frame itself.
+/// The frames that the ideal camera and the other cameras see in place of a frame; `None` is the
+/// frame itself.
 #[derive(Debug, Default)]
 pub(crate) struct FrameDisturbance {
     pub(crate) truth: Option<ByteFrame>,
@@ -231,8 +233,9 @@ impl PixelLevels {
     }
 }
 
-/// Returns a seed whose random numbers are independent of those of neighboring numbers (`SplitMix64`). With
-/// neighboring seeds the generator gives correlated numbers, and so frames would have correlated noise.
+/// Returns a seed whose random numbers are independent of those of neighboring numbers
+/// (`SplitMix64`). With neighboring seeds the generator gives correlated numbers, and so frames
+/// would have correlated noise.
 fn unrelated_seed(number: u64) -> u64 {
     let sum = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
     let mixed = (sum ^ (sum >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);

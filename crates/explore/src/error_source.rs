@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The flips of a design by their source: how many fewer there are if only one thing is as in the ideal
-//! camera of the task.
+//! The flips of a design by their source: how many fewer there are if only one thing is as in the
+//! ideal camera of the task.
 
 use foveate_camera::{Camera, CameraConfig, Neighborhood};
 use serde::Serialize;
@@ -11,13 +11,15 @@ use crate::measure::CameraMeasurement;
 /// The flips of a design that come from one source, as shares of the area from -1 to 1.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ErrorSourceRow {
-    /// `windows`, `filter`, `bits`, `thresholds`, `fraction bits`, `reference`, or `interaction` for the rest.
+    /// `windows`, `filter`, `bits`, `thresholds`, `fraction bits`, `reference`, or `interaction`
+    /// for the rest.
     pub source: &'static str,
-    /// The flips of the design less those with only this one thing as in the task, so a negative share is an error
-    /// that makes up for others; `None` if there is no such camera. For `interaction`, the flips of the design less
-    /// all other rows.
+    /// The flips of the design less those with only this one thing as in the task, so a negative
+    /// share is an error that makes up for others; `None` if there is no such camera. For
+    /// `interaction`, the flips of the design less all other rows.
     pub flips: Option<f64>,
-    /// The share is between these two in 18 of 20 sets of as many other frames; `None` with fewer than two frames.
+    /// The share is between these two in 18 of 20 sets of as many other frames; `None` with fewer
+    /// than two frames.
     pub interval: Option<[f64; 2]>,
     /// The reason why the flips or the interval are missing.
     pub reason: Option<String>,
@@ -101,9 +103,9 @@ impl SourceVariants {
     }
 }
 
-/// Returns a camera with the thresholds of SRS and TRS of the task at its own depth, as if they were not rounded:
-/// hits are whole numbers above a level, so a level that is rounded down has the same ones. Fails with the reason
-/// if the task has no such thresholds.
+/// Returns a camera with the thresholds of SRS and TRS of the task at its own depth, as if they
+/// were not rounded: hits are whole numbers above a level, so a level that is rounded down has the
+/// same ones. Fails with the reason if the task has no such thresholds.
 fn with_thresholds_of(task: &CameraConfig, own: &CameraConfig) -> Result<CameraConfig, String> {
     let (side, bits) = (own.region.size, own.frame.pixel_bits);
     if task.region.size != side {

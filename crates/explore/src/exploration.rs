@@ -26,8 +26,8 @@ pub struct Exploration {
     pub luma: &'static str,
     /// The ideal camera that designs are compared with, as TOML.
     pub ideal: String,
-    /// The clock of the frame rates in MHz, if the space gives one; otherwise each design has its own
-    /// clock. In a process no design has a clock above the highest one of its cells.
+    /// The clock of the frame rates in MHz, if the space gives one; otherwise each design has its
+    /// own clock. In a process no design has a clock above the highest one of its cells.
     pub clock_mhz: Option<u32>,
     /// The name of the library of cells in which designs were measured, if there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -44,8 +44,8 @@ pub struct Exploration {
     pub rows: Vec<DesignRow>,
     /// The combinations that are not valid designs.
     pub refused: Vec<RefusedCombination>,
-    /// The problems: clips that ended early, and designs that could not be synthesized, mapped to cells or
-    /// simulated as gates, with the reasons.
+    /// The problems: clips that ended early, and designs that could not be synthesized, mapped to
+    /// cells or simulated as gates, with the reasons.
     pub problems: Vec<String>,
     /// The number of areas that are not known yet, while the exploration runs.
     #[serde(skip)]
@@ -81,8 +81,8 @@ impl Exploration {
         fronts
     }
 
-    /// Returns a sentence about the designs that are on no front whatever their figures, and one about the combinations
-    /// that cannot be built, if there are any.
+    /// Returns a sentence about the designs that are on no front whatever their figures, and one
+    /// about the combinations that cannot be built, if there are any.
     #[must_use]
     pub fn findings(&self) -> Vec<String> {
         let useless = self.rows.iter().filter(|row| !row.qualifies()).count();
@@ -133,8 +133,8 @@ impl<'a> DesignFront<'a> {
         Self { name, title, rows }
     }
 
-    /// Returns the points that are named where not all of them can be: at most eight, with both ends and evenly
-    /// spread between them.
+    /// Returns the points that are named where not all of them can be: at most eight, with both
+    /// ends and evenly spread between them.
     pub fn named_rows(&self) -> impl Iterator<Item = &'a DesignRow> {
         const NAMED: usize = 8;
         let (count, last) = (self.rows.len().min(NAMED), self.rows.len().saturating_sub(1));

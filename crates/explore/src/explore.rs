@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! An exploration: it measures a space over clips, and writes a folder of tables, fronts,
-//! configurations and one page. The work of an exploration: the clips, and the cameras of the
-//! designs.
+//! An exploration ([`explore`]): it measures a space over clips, and writes a folder of tables,
+//! fronts, configurations and one page. An [`ExplorationWork`] is what there is to measure: the
+//! clips, and the cameras of the designs.
 
 use super::point::{PointSynthesis, SynthesizedPoints};
 use super::row::{error_cells, load_cells, name_cells, point_cells, process_cells};
@@ -36,7 +36,8 @@ const NEWS_AFTER: Duration = Duration::from_secs(1);
 const TABLES: [&str; 4] = [POINTS, POINTS_PARQUET, CLIPS, REPORT];
 
 /// Runs an exploration and writes `output`. Finished results are kept there, so an interrupted run
-/// can continue. The tables and the page are written when the errors are known, and again as areas arrive.
+/// can continue. The tables and the page are written when the errors are known, and again as areas
+/// arrive.
 ///
 /// # Errors
 /// Fails if an input cannot be read, no point is a valid design, the folder holds something else or
@@ -83,7 +84,8 @@ struct PointResults {
     /// The load of every clip and point; empty if the space has no link.
     loads: Vec<Vec<Option<LoadFigures>>>,
     designs: Vec<Design>,
-    /// The results of synthesizing the designs, as far as they are known; without synthesis empty results.
+    /// The results of synthesizing the designs, as far as they are known; without synthesis empty
+    /// results.
     synthesized: SynthesizedPoints,
 }
 
@@ -173,7 +175,8 @@ impl PointResults {
         }
     }
 
-    /// Writes what is known so far, unless somebody has changed a file, which only the last write reports.
+    /// Writes what is known so far, unless somebody has changed a file, which only the last write
+    /// reports.
     fn write_so_far(
         &self,
         request: &ExploreRequest<'_>,
@@ -241,8 +244,8 @@ impl PointResults {
             _ => UNFINISHED_MARK.to_owned(),
         };
         files.push((MARK_FILE.to_owned(), mark.into_bytes()));
-        // Designs of an earlier, larger space are removed, because their numbers would belong to other
-        // points.
+        // Designs of an earlier, larger space are removed, because their numbers would belong to
+        // other points.
         Ok(open_continued(output)?.write(&files)?)
     }
 }

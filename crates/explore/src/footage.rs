@@ -132,8 +132,9 @@ impl<'a> ExplorationFootage<'a> {
         self.ideal.frame.pixel_bits
     }
 
-    /// Returns the measurement of every camera in every part of all clips. `parts` gives the parts of
-    /// a clip by its number. `before` is the number of cameras that were done before, for progress.
+    /// Returns the measurement of every camera in every part of all clips. `parts` gives the parts
+    /// of a clip by its number. `before` is the number of cameras that were done before, for
+    /// progress.
     pub(crate) fn measure_clip_parts(
         &self,
         cameras: &[Camera],

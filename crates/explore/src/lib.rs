@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Studies of designs over footage. An exploration has many designs over the same clips: the errors of each design against the ideal
-//! camera, its cost and its speed; and fits, which find the cheapest design that a scene needs.
+//! Studies of designs over footage. An exploration has many designs over the same clips: the errors
+//! of each design against the ideal camera, its cost and its speed; and fits, which find the
+//! cheapest design that a scene needs.
 //!
 //! [`explore`](fn@explore) runs a [`DesignSpace`] of designs over clips and writes a folder of
 //! tables, Pareto fronts, configurations and one page. It continues an interrupted run.
@@ -9,7 +10,8 @@
 //! [`foveate_measure`]. The library never prints: progress and cancellation go through
 //! [`foveate_media::RunHooks`].
 //!
-//! [`link`] compares what a camera sends with other senders, and [`studies`] are those of the paper.
+//! [`link`] compares what a camera sends with other senders, and [`studies`] are those of the
+//! paper.
 
 mod cost;
 mod design_disturbance;

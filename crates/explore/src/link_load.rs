@@ -24,8 +24,8 @@ pub struct LoadFigures {
     pub delivery_longest_ns: Option<u64>,
     /// The size in bytes of the buffer in front of the link that loses nothing.
     pub buffer_bytes: Option<u64>,
-    /// The number of clips that need more than the link carries, so that the buffer grows with their
-    /// length.
+    /// The number of clips that need more than the link carries, so that the buffer grows with
+    /// their length.
     pub overloaded_clips: Option<u64>,
     /// The number of regions that are lost without a buffer.
     pub unbuffered_lost_regions: Option<u64>,
@@ -105,8 +105,8 @@ impl<'a> LoadMeasurement<'a> {
         clips.map(|clip| self.measure_clip(clip, designs, store)).collect()
     }
 
-    /// Returns the loads of designs over one clip, which is given by its number. A design that sends
-    /// no pixels has none.
+    /// Returns the loads of designs over one clip, which is given by its number. A design that
+    /// sends no pixels has none.
     pub(crate) fn measure_clip(
         &self,
         clip: usize,

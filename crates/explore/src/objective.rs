@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The objectives that points are compared by, and the direction in which each figure is
-//! better. Tables, plots and the page take both from here. Pareto fronts of two costs: the
-//! points that no other point beats.
+//! The objectives that points are compared by ([`Objective`]), and the points that win: the
+//! Pareto fronts of two objectives, which no other point beats ([`mark_fronts`]). Tables, plots
+//! and the page take from here in which direction a figure is better.
 
 use crate::row::{DesignRow, FrontMembership, count_to_f64};
 
@@ -83,8 +83,8 @@ pub(crate) struct FrontObjectives {
 }
 
 impl FrontObjectives {
-    /// Returns the objectives of some points. `has_process` is true if they were to be mapped to the cells of a
-    /// process.
+    /// Returns the objectives of some points. `has_process` is true if they were to be mapped to
+    /// the cells of a process.
     pub(crate) fn of_rows(rows: &[DesignRow], has_process: bool) -> Self {
         let has_clocks = rows.iter().any(|row| row.speed.is_some());
         let area = if has_process { Objective::Mm2 } else { Objective::DeviceShare };
@@ -96,8 +96,8 @@ impl FrontObjectives {
     }
 }
 
-/// Returns whether each point is unbeaten: it [qualifies](DesignRow::qualifies), and no other such point is
-/// as good in both objectives and better in one.
+/// Returns whether each point is unbeaten: it [qualifies](DesignRow::qualifies), and no other such
+/// point is as good in both objectives and better in one.
 pub(crate) fn unbeaten_rows(rows: &[&DesignRow], objectives: [Objective; 2]) -> Vec<bool> {
     let costs = |row: &&DesignRow| {
         objectives.map(|objective| objective.cost_of(row).filter(|_| row.qualifies()))
@@ -105,8 +105,8 @@ pub(crate) fn unbeaten_rows(rows: &[&DesignRow], objectives: [Objective; 2]) -> 
     pareto_front(&rows.iter().map(costs).collect::<Vec<_>>())
 }
 
-/// Marks the fronts of an exploration. `has_process` is true if its points were to be mapped to the cells of a
-/// process.
+/// Marks the fronts of an exploration. `has_process` is true if its points were to be mapped to the
+/// cells of a process.
 pub(crate) fn mark_fronts(rows: &mut [DesignRow], has_process: bool) {
     let FrontObjectives { speed, area, .. } = FrontObjectives::of_rows(rows, has_process);
     let all: Vec<&DesignRow> = rows.iter().collect();
@@ -118,9 +118,9 @@ pub(crate) fn mark_fronts(rows: &mut [DesignRow], has_process: bool) {
     }
 }
 
-/// Returns whether each point is on the front of its two costs: no other point has costs that are both
-/// at most as high and one of them lower. A point without a cost, or with NaN as a cost, is on no
-/// front and beats no point.
+/// Returns whether each point is on the front of its two costs: no other point has costs that are
+/// both at most as high and one of them lower. A point without a cost, or with NaN as a cost, is on
+/// no front and beats no point.
 pub(crate) fn pareto_front(points: &[[Option<f64>; 2]]) -> Vec<bool> {
     let known = |(index, [first, second]): (usize, &[Option<f64>; 2])| {
         // Adding zero turns -0 into 0.
@@ -179,8 +179,8 @@ mod tests {
         (0..60).map(|_| point()).collect()
     }
 
-    /// The definition of a front: the point has the cost and at most 10 % missed and false alarms, and no other such
-    /// point has neither more flips nor a higher cost, and one of them lower.
+    /// The definition of a front: the point has the cost and at most 10 % missed and false alarms,
+    /// and no other such point has neither more flips nor a higher cost, and one of them lower.
     fn front(rows: &[DesignRow], cost: &dyn Fn(&DesignRow) -> Option<f64>) -> Vec<bool> {
         let costs = |row: &DesignRow| {
             let figures = &row.figures;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The points of a space, each with its design. The synthesis of the points of an exploration:
-//! area and clock on an FPGA, and area, clock and energy in the cells of a process.
+//! The points of a space, each with its design ([`DesignPoint`]), and their synthesis
+//! ([`PointSynthesis`]): area and clock on an FPGA, and area, clock and energy in the cells of
+//! a process.
 
 use crate::cost::{ResultsByRtl, SynthesisResult};
 use crate::footage::ExplorationFootage;
@@ -149,8 +150,8 @@ impl<'a> PointSynthesis<'a> {
     /// Checks what a long run would find at its end.
     ///
     /// # Errors
-    /// Fails if the energy is wanted, and an input is a data set, is too short or cannot be read, or the library
-    /// has no energies.
+    /// Fails if the energy is wanted, and an input is a data set, is too short or cannot be read,
+    /// or the library has no energies.
     pub(crate) fn check(
         request: SynthesisRequest<'_>,
         footage: &ExplorationFootage<'_>,
@@ -177,8 +178,9 @@ impl<'a> PointSynthesis<'a> {
         Self { synthesizer, process, energy_clips, hooks }
     }
 
-    /// Synthesizes the next of all designs, as many at a time as keep the processors busy, and adds the results and the
-    /// errors of tools to `found`. A design that fails does not lose the others.
+    /// Synthesizes the next of all designs, as many at a time as keep the processors busy, and adds
+    /// the results and the errors of tools to `found`. A design that fails does not lose the
+    /// others.
     ///
     /// # Errors
     /// Fails if the hooks cancel.
@@ -200,7 +202,8 @@ impl<'a> PointSynthesis<'a> {
         Ok(())
     }
 
-    /// Synthesizes designs. Errors of tools are added to `problems`, with the indices of their designs.
+    /// Synthesizes designs. Errors of tools are added to `problems`, with the indices of their
+    /// designs.
     fn synthesize(
         &self,
         designs: &[Design],

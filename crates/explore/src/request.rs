@@ -17,7 +17,8 @@ pub struct ExploreRequest<'a> {
     pub inputs: &'a [PathBuf],
     /// The options for reading the inputs.
     pub input: &'a InputOptions,
-    /// A disturbance of the frames that the designs see; the ideal camera sees the clips as they are.
+    /// A disturbance of the frames that the designs see; the ideal camera sees the clips as they
+    /// are.
     pub disturbance: Option<Disturbance>,
     /// The synthesis of the designs; without it the figures have no areas.
     pub synthesis: Option<SynthesisRequest<'a>>,
@@ -37,6 +38,7 @@ pub struct SynthesisRequest<'a> {
 pub struct ProcessRequest<'a> {
     /// The process.
     pub process: &'a TargetProcess,
-    /// The frames per second of powers. Without it, no energy is measured; it takes half a minute for a design.
+    /// The frames per second of powers. Without it, no energy is measured; it takes half a minute
+    /// for a design.
     pub energy_rate: Option<f64>,
 }

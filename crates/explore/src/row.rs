@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A point with all its figures. The points as a table, with one list of columns for CSV and
-//! Parquet.
+//! A point with all its figures ([`DesignRow`]), which is a row of the table of points. CSV and
+//! Parquet have the same list of columns ([`point_cells`]).
 
 use super::point::SynthesizedPoint;
 use crate::LoadFigures;
@@ -32,20 +32,22 @@ pub struct DesignRow {
     pub fingerprint: String,
     /// The errors over all clips.
     pub figures: FidelityFigures,
-    /// The clip with the largest share of flipped actions, if there are several clips and any flips.
+    /// The clip with the largest share of flipped actions, if there are several clips and any
+    /// flips.
     pub worst_clip: Option<WorstClip>,
     /// The bytes per frame that leave the array: 2 bits per region, the pixels of active regions,
     /// and the means of summaries.
     pub bytes_per_frame: f64,
     /// The number of clocks from one frame to the next.
     pub clocks_per_frame: u64,
-    /// The clock and the frames per second: at the clock of the space, or else at the clock that is estimated
-    /// for the FPGA; `None` without both. With a process, at the highest clock of its cells, or at that of the
-    /// space if it is lower; `None` if the design could not be mapped.
+    /// The clock and the frames per second: at the clock of the space, or else at the clock that is
+    /// estimated for the FPGA; `None` without both. With a process, at the highest clock of its
+    /// cells, or at that of the space if it is lower; `None` if the design could not be mapped.
     pub speed: Option<FrameRate>,
     /// The area, if it was synthesized.
     pub silicon: Option<DesignArea>,
-    /// The share of the device that the array takes, 0..=1, as [`fit`](crate::fit) counts it; `None` without an area.
+    /// The share of the device that the array takes, 0..=1, as [`fit`](crate::fit) counts it;
+    /// `None` without an area.
     pub device_share: Option<f64>,
     /// The cost in the process, if there is one and the design was mapped to it.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -57,17 +59,17 @@ pub struct DesignRow {
     pub front: FrontMembership,
 }
 
-/// The fronts that a point is on. A point that misses more than 10 % or has more than 10 % false alarms is on
-/// none.
+/// The fronts that a point is on. A point that misses more than 10 % or has more than 10 % false
+/// alarms is on none.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct FrontMembership {
     /// True if the point is on the front of error and speed.
     pub speed: bool,
-    /// True if the point is on the front of error and area of the array: square millimetres with a process, the
-    /// share of the device without one. A point without that area is not on it.
+    /// True if the point is on the front of error and area of the array: square millimetres with a
+    /// process, the share of the device without one. A point without that area is not on it.
     pub area: bool,
-    /// True if the point is on the front of error and energy of a region in a frame. A point whose energy was not
-    /// measured is not on it.
+    /// True if the point is on the front of error and energy of a region in a frame. A point whose
+    /// energy was not measured is not on it.
     pub energy: bool,
 }
 
@@ -98,8 +100,8 @@ pub(crate) struct ClockSource {
 }
 
 impl ClockSource {
-    /// Returns the speed of a design. Clocks of cells and of an FPGA are not compared: a design that could not be
-    /// mapped to the cells has none.
+    /// Returns the speed of a design. Clocks of cells and of an FPGA are not compared: a design
+    /// that could not be mapped to the cells has none.
     fn speed(self, clocks_per_frame: u64, synthesized: &SynthesizedPoint) -> Option<FrameRate> {
         let SynthesizedPoint { fpga, process } = synthesized;
         let clock = reachable_clock(self.given_mhz.map(f64::from), process.as_ref());
@@ -142,8 +144,8 @@ impl DesignRow {
         })
     }
 
-    /// Returns true if the design does the task well enough to be on a front: it misses at most 10 % and has at
-    /// most 10 % false alarms. A design that sends almost nothing has few flips, too.
+    /// Returns true if the design does the task well enough to be on a front: it misses at most 10
+    /// % and has at most 10 % false alarms. A design that sends almost nothing has few flips, too.
     #[must_use]
     pub fn qualifies(&self) -> bool {
         self.figures.missed <= MAX_DECISION_ERROR && self.figures.false_alarms <= MAX_DECISION_ERROR

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The store of finished measurements in the folder of the exploration. It has a file for every
-//! clip and camera, and for every clip and design in front of a link. Its name is a hash of
-//! everything that the figures depend on. A rerun measures only what is missing. The folder of
-//! an exploration and the file that marks it, also if several machines write to it. The stages
-//! of explorations and fits, as reports of progress.
+//! The folder of an exploration, in which an interrupted one continues, also on several
+//! machines ([`claim_folder`]). Finished measurements are kept there ([`MeasurementStore`]), so
+//! that a rerun measures only what is missing: there is a file for every clip and camera, and
+//! for every clip and design in front of a link, and its name is a hash of everything that the
+//! figures depend on. What is still to do is reported as progress, stage by stage.
 
 use crate::ExploreError;
 use crate::link::ArrayLink;
@@ -238,8 +238,8 @@ pub(crate) fn synthesis_progress(done: usize, all: usize) -> RunProgress<'static
     RunProgress::steps("synthesizing with Yosys", done as u64, all as u64)
 }
 
-/// Reports that designs are mapped to the cells of a process: so many distinct RTLs are done, of all
-/// distinct RTLs.
+/// Reports that designs are mapped to the cells of a process: so many distinct RTLs are done, of
+/// all distinct RTLs.
 pub(crate) fn mapping_progress(done: usize, all: usize) -> RunProgress<'static> {
     RunProgress::steps("mapping to cells", done as u64, all as u64)
 }

@@ -30,22 +30,23 @@ pub struct TargetProcess {
     pub memory_limit: u64,
 }
 
-/// The cost of a design in a process. Wires, the clock tree and other corners are not included, so areas
-/// and powers are lower bounds, and the clock is an upper bound.
+/// The cost of a design in a process. Wires, the clock tree and other corners are not included, so
+/// areas and powers are lower bounds, and the clock is an upper bound.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ProcessFigures {
     /// The name of the library.
     pub library: String,
     /// The area of one RPU, lane or core in square micrometres, without memory macros.
     pub unit_um2: f64,
-    /// The area of the array with its memory macros in square millimetres; `None` if a memory has no macro.
+    /// The area of the array with its memory macros in square millimetres; `None` if a memory has
+    /// no macro.
     pub mm2: Option<f64>,
     /// The bits of the memories for which no macro fits.
     pub memory_bits_without_macro: u64,
     /// The highest clock in MHz, rounded down to a tenth.
     pub clock_mhz: f64,
-    /// The energy; `None` if it was not measured, for organization `raster`, or if a memory is too large for
-    /// flip-flops.
+    /// The energy; `None` if it was not measured, for organization `raster`, or if a memory is too
+    /// large for flip-flops.
     pub energy: Option<ProcessEnergy>,
 }
 
@@ -54,8 +55,8 @@ pub struct ProcessFigures {
 pub struct ProcessEnergy {
     /// The frames per second for which powers are given.
     pub frame_rate: f64,
-    /// The energy of a region in a frame in nanojoules, without leakage: the mean over the usual stretches of
-    /// all clips.
+    /// The energy of a region in a frame in nanojoules, without leakage: the mean over the usual
+    /// stretches of all clips.
     pub nj_per_region: f64,
     /// The power of the array in milliwatts: the mean over the usual stretches of all clips.
     pub usual_mw: f64,
@@ -78,8 +79,8 @@ impl ProcessFigures {
     }
 }
 
-/// Returns the clock of a design in MHz: the given one, or the highest one in the process if that is lower or
-/// none is given. A chip does not reach a clock above the highest one of its cells.
+/// Returns the clock of a design in MHz: the given one, or the highest one in the process if that
+/// is lower or none is given. A chip does not reach a clock above the highest one of its cells.
 pub(crate) fn reachable_clock(given: Option<f64>, process: Option<&ProcessFigures>) -> Option<f64> {
     match (given, process.map(|process| process.clock_mhz)) {
         (Some(given), Some(highest)) => Some(given.min(highest)),
@@ -91,7 +92,8 @@ impl ProcessEnergy {
     /// Returns the energy over several clips; `None` without clips.
     fn of_clips(reports: &[EnergyReport]) -> Option<Self> {
         let frame_rate = reports.first()?.frame_rate;
-        // The stretches of a report are ordered by their activity: a quiet, a usual and the busiest one.
+        // The stretches of a report are ordered by their activity: a quiet, a usual and the busiest
+        // one.
         let usual: Vec<&StretchEnergy> =
             reports.iter().map(|report| &report.stretches[1]).collect();
         let mean = |take: fn(&StretchEnergy) -> f64| {
@@ -131,16 +133,16 @@ impl<'a> EnergyClips<'a> {
         Self { process, clips, frame_rate, store: None }
     }
 
-    /// Refuses data sets, whose images have no activity in time, clips that are too short, and a library without
-    /// what every energy needs.
+    /// Refuses data sets, whose images have no activity in time, clips that are too short, and a
+    /// library without what every energy needs.
     pub(crate) fn check(&self) -> Result<(), ExploreError> {
         self.process.library.cell_models([])?;
         Ok(self.clips.iter().try_for_each(ActivityClip::check)?)
     }
 
-    /// Returns the energy of a design for frames of the clips' size. `report` is its area in the process. The
-    /// energy of a design whose memories are not flip-flops cannot be measured, nor that of organization
-    /// `raster`.
+    /// Returns the energy of a design for frames of the clips' size. `report` is its area in the
+    /// process. The energy of a design whose memories are not flip-flops cannot be measured, nor
+    /// that of organization `raster`.
     pub(crate) fn measure(
         &self,
         synthesizer: &Synthesizer,

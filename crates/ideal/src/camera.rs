@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The ideal camera, which takes one whole frame at a time. The outcome of one frame.
+//! The ideal camera ([`IdealCamera`]), which takes one whole frame at a time, and gives the
+//! scores, decisions and pixels of that frame ([`IdealOutcome`]).
 
 use super::plane::RegionGrid;
 use crate::IdealError;
@@ -18,8 +19,8 @@ use foveate_pixels::ByteFrame;
 /// A camera that computes the contract in real numbers.
 ///
 /// It ignores the neighborhood of the configuration (every window sees the whole frame, as with
-/// `shared`) and the fraction bits of the mean (it uses the real mean). It does not round the pixels
-/// of `binomial3x3`, so its denoised and rendered pixels may be fractions of grey levels.
+/// `shared`) and the fraction bits of the mean (it uses the real mean). It does not round the
+/// pixels of `binomial3x3`, so its denoised and rendered pixels may be fractions of grey levels.
 #[derive(Clone, Debug)]
 pub struct IdealCamera {
     camera: Camera,
@@ -45,7 +46,8 @@ struct ClassScores {
 }
 
 impl IdealCamera {
-    /// Creates a camera before its first frame, whose regions have the classes of the configuration.
+    /// Creates a camera before its first frame, whose regions have the classes of the
+    /// configuration.
     #[must_use]
     pub fn new(camera: &Camera) -> Self {
         let grid = RegionGrid::from_camera(camera);
@@ -243,8 +245,8 @@ pub struct IdealOutcome {
     /// The action that the receiver's screen takes for every region.
     pub actions: Vec<RegionAction>,
     /// The scores by feature, in the order of the camera, and then by region: numbers of pixels for
-    /// `edge`, `corner` and `segment`, grey levels for `mad`, `range`, `surface` and `flow`, squared
-    /// grey levels for `variance`.
+    /// `edge`, `corner` and `segment`, grey levels for `mad`, `range`, `surface` and `flow`,
+    /// squared grey levels for `variance`.
     pub scores: Vec<Vec<f64>>,
     /// The number of changed pixels of every region, 0..=n; n without a valid reference.
     pub changed: Vec<f64>,

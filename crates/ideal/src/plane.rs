@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A padded frame of real numbers with a border of one pixel that repeats the outermost pixels,
-//! so that every 3x3 window is nine plain reads. The division of a frame into regions.
+//! The places of a frame of real numbers. A [`PaddedPlane`] has a border of one pixel that
+//! repeats the outermost pixels, so that every 3x3 window is nine plain reads, and a
+//! [`RegionGrid`] divides it into regions.
 
 use foveate_camera::Camera;
 use foveate_pixels::FramePixels as Pixels;

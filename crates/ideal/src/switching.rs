@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `switching3x3`: the median where the pixel is the largest or the smallest of its window, elsewhere
-//! the pixel itself.
+//! `switching3x3`: the median where the pixel is the largest or the smallest of its window,
+//! elsewhere the pixel itself.
 
 use crate::median::{SortedColumns, filter_median};
 use crate::plane::PaddedPlane;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The playback of a run: each clip is shown to a camera of its own, one after the other. The
-//! frames of a run in memory, because tuning runs the network on them many times.
+//! The playback of a run ([`ClipPlayback`]): each clip is shown to a camera of its own, one
+//! after the other, and a [`FrameConsumer`] gets the frames. Tuning keeps them in memory,
+//! because it runs the network on them many times ([`KeptClips`]).
 
 use crate::InferenceError;
 use crate::camera::{CameraSetup, KeptFrame, ReceivedFrame, ReceiverCamera};

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The computation of a run: a mode of the executor, or limits that are chosen by tuning. A
-//! whole computation of every frame, with which another computation is compared. The
-//! multiplications and additions (MACs) of a frame. The numbers of positions of a layer that
-//! were needed, computed and changed. Sums and shares that are 0 for nothing.
+//! What a run computes of a network ([`Computation`]), and how much that is: positions of
+//! layers that were needed, computed and changed ([`PositionCounts`]), and multiplications and
+//! additions ([`Macs`]). A [`WholeComputation`] computes every frame wholly, for a comparison.
 
 use crate::TuningGoal;
 use crate::closeness::ClosenessTally;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The cost of a run's frames on an accelerator, computed whole and computed where the masks
-//! say. The bytes that the layers read and write for a frame, and their time.
+//! The cost of a run's frames, computed whole and computed where the masks say: time and energy
+//! on an accelerator ([`NodeCosts`]), and the bytes that the layers read and write
+//! ([`FrameTraffic`]).
 
 use foveate_network::accelerator::{
     Accelerator, AcceleratorError, KernelWindow, Layer, LayerCost, LayerPlan, TensorShape,

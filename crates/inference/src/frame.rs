@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The figures of a frame: of each of its layers, and of all of them together. The means over
-//! the frames of a clip, and the frames whose outputs are not finite.
+//! The figures of a frame: of each of its layers, and of all of them together
+//! ([`FrameFigures`]). Means over the frames of a clip follow from them ([`mean_of_frames`]),
+//! and frames whose outputs are not finite are counted ([`NotFiniteTally`]).
 
 use super::computation::{Macs, PositionCounts, macs_of_layers, sum};
 use super::cost::{FrameTraffic, TrafficTally};

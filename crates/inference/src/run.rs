@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A run in progress: the figures of every frame, and their sums. Runs of a network: an
-//! executor goes over clips, or over the frames of data sets one by one.
+//! A run of a network over clips, or over the frames of data sets one by one
+//! ([`InferenceRun`]): the figures of every frame, and their sums. Each clip has an executor of
+//! its own ([`NetworkRunner`]).
 
 use super::clip_playback::ClipPart;
 use super::computation::{PositionCounts, WholeComputation, macs_of_layers, share};

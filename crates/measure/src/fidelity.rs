@@ -89,8 +89,8 @@ impl Fidelity {
         })
     }
 
-    /// Adds one frame: the input of the ideal camera, the ideal camera's outcome, and the results of
-    /// the candidate. Returns the areas of its decisions, which have been added, too.
+    /// Adds one frame: the input of the ideal camera, the ideal camera's outcome, and the results
+    /// of the candidate. Returns the areas of its decisions, which have been added, too.
     ///
     /// # Errors
     /// Fails if something does not have the size or depth of its camera; nothing has been added

@@ -54,9 +54,9 @@ pub struct FidelityFigures {
     pub ssim_input: f64,
     /// The staleness of the candidate's screen.
     pub staleness: Staleness,
-    /// The share of the relevant regions (times frames) that are stale, 0..=1, as in [`Staleness`], but
-    /// compared with the candidate's own denoised frame: what the screen has lost since it was sent,
-    /// without the errors of fewer bits and of the filter.
+    /// The share of the relevant regions (times frames) that are stale, 0..=1, as in [`Staleness`],
+    /// but compared with the candidate's own denoised frame: what the screen has lost since it was
+    /// sent, without the errors of fewer bits and of the filter.
     pub stale_regions: f64,
 }
 

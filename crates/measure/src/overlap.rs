@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The overlap of two grids of regions over one frame: the cells into which the lines of both
-//! grids divide the frame. The sums over frames.
+//! The areas over which errors are counted: the cells into which the lines of two grids of
+//! regions divide a frame ([`GridCells`]), and the sums of such areas and of other errors over
+//! frames ([`ErrorTally`]).
 
 use crate::areas::{DecisionAreas, DecisionState, StateAreas, state_pair_index};
 use crate::scores::ScoreTally;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Pixels in the narrowest type that holds them. The frames that are compared, in one pixel
-//! type, at the depth of the ideal.
+//! The numbers of a comparison, in types that are exact and fast. Frames have one pixel type,
+//! the narrowest that holds them, at the depth of the ideal ([`ComparedFrames`]).
 //!
-//! Sums that do not depend on the order of their terms: fixed point with 40 fraction bits.
-//!
-//! The quantum is 9.1e-13, and the range 1.5e26, which a day of 16-bit video does not reach. Sums
-//! beyond the range saturate.
+//! Sums have 40 fraction bits, so that they do not depend on the order of their terms
+//! ([`FixedPoint`]). The quantum is 9.1e-13, and the range 1.5e26, which a day of 16-bit video
+//! does not reach. Sums beyond the range saturate.
 
 use foveate_camera::Camera;
 use foveate_ideal::IdealOutcome;
@@ -46,8 +45,8 @@ pub(crate) trait PixelSample: Copy + Default + Ord + Into<u32> {
 /// vector instruction set.
 const SHIFT: f64 = 4_503_599_627_370_496.0; // 2^52
 
-/// Half of a sixteenth. The addition of [`SHIFT`] rounds halves to an even number; with this addend,
-/// it rounds halves up, and other multiples of a sixteenth as before.
+/// Half of a sixteenth. The addition of [`SHIFT`] rounds halves to an even number; with this
+/// addend, it rounds halves up, and other multiples of a sixteenth as before.
 const HALVES_UP: f64 = 0.031_25;
 
 impl PixelSample for u8 {

@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The squared errors and the SSIM of the candidate's screen, against the ideal's screen and the
-//! input at the same time.
+//! The squared errors and the SSIM of the candidate's screen, against the ideal's screen and
+//! the input at the same time ([`ScreenComparison`]).
 //!
-//! The SSIM is that of ffmpeg's filter `ssim` for one plane. It has windows of 8x8 pixels, 4 pixels
-//! apart, each of which is made of four blocks of 4x4 pixels. Pixels at the right and at the bottom
-//! that fill no block belong to no window. For a frame that is less than 8 pixels wide or high,
-//! ffmpeg has no window; here the whole frame is one window.
+//! The SSIM is that of ffmpeg's filter `ssim` for one plane. It has windows of 8x8 pixels, 4
+//! pixels apart, each of which is made of four blocks of 4x4 pixels. Pixels at the right and at
+//! the bottom that fill no block belong to no window. For a frame that is less than 8 pixels
+//! wide or high, ffmpeg has no window; here the whole frame is one window.
 //!
-//! The SSIM of two windows from the sums of their pixels, with the constants of ffmpeg's filter
-//! `ssim`.
-//!
-//! The definition is that of Z. Wang et al., "Image Quality Assessment: From Error Visibility to
-//! Structural Similarity", 2004. Mean, variance and covariance are multiplied by the number of
-//! pixels or its square, so that only whole numbers are added.
+//! The SSIM of a window has the constants of that filter ([`SsimConstants`]). Its definition is
+//! that of Z. Wang et al., "Image Quality Assessment: From Error Visibility to Structural
+//! Similarity", 2004. Mean, variance and covariance are multiplied by the number of pixels or
+//! its square, so that only whole numbers are added.
 
 use super::sample::{ComparedFrames, FixedPoint, count_to_f64};
 use crate::sample::PixelSample;

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The decisions of a camera with any minimum scores and any minimum count, from one run over frames.
+//! The decisions of a camera with any minimum scores and any minimum count, from one run over
+//! frames.
 //!
 //! While scores do not depend on decisions, a run needs to count only the area of every combination
-//! of scores, changed pixels and ideal decision: the decisions with all other minima follow from it.
+//! of scores, changed pixels and ideal decision: the decisions with all other minima follow from
+//! it.
 
 use std::collections::HashMap;
 
@@ -24,7 +26,8 @@ const MAX_STEPS: usize = u8::MAX as usize;
 pub struct MinimumSteps {
     /// The minimum counts of changed pixels, rising; at most 255.
     pub counts: Vec<u32>,
-    /// The minimum scores of every feature, rising, in the integers of the camera; at most 255 each.
+    /// The minimum scores of every feature, rising, in the integers of the camera; at most 255
+    /// each.
     pub scores: Vec<Vec<u64>>,
 }
 
@@ -37,13 +40,15 @@ pub struct DecisionLimits {
     pub missed: Option<f64>,
     /// The largest share of the candidate's active area that is not active in the ideal.
     pub false_alarms: Option<f64>,
-    /// The distance up to which of two cameras the one that is active more is nearer, if there is one.
+    /// The distance up to which of two cameras the one that is active more is nearer, if there is
+    /// one.
     pub prefers_active_below: Option<f64>,
 }
 
 impl DecisionLimits {
-    /// Returns the largest ratio of a rate and its limit. A limit of 0 is far from every other rate. Up to
-    /// [`Self::prefers_active_below`] it is the negative share of the area that is `active`.
+    /// Returns the largest ratio of a rate and its limit. A limit of 0 is far from every other
+    /// rate. Up to [`Self::prefers_active_below`] it is the negative share of the area that is
+    /// `active`.
     #[must_use]
     pub fn distance(&self, [flips, missed, false_alarms]: [f64; 3], active: f64) -> f64 {
         let ratio = |limit: Option<f64>, rate: f64| limit.map_or(0.0, |limit| ratio(rate, limit));
@@ -117,8 +122,8 @@ impl ThresholdTable {
         is_reference_free && has_no_summaries
     }
 
-    /// Creates the table of a camera whose scores do not depend on its decisions, for frames in so many
-    /// groups.
+    /// Creates the table of a camera whose scores do not depend on its decisions, for frames in so
+    /// many groups.
     #[must_use]
     pub fn new(ideal: &Camera, candidate: &Camera, steps: MinimumSteps, groups: usize) -> Self {
         let lists = || std::iter::once(steps.counts.len()).chain(steps.scores.iter().map(Vec::len));
@@ -150,8 +155,8 @@ impl ThresholdTable {
         });
     }
 
-    /// Returns the least area that flips with any of the minima of one feature; with several features, the least
-    /// that the search of [`Self::nearest`] finds.
+    /// Returns the least area that flips with any of the minima of one feature; with several
+    /// features, the least that the search of [`Self::nearest`] finds.
     #[must_use]
     pub fn least_flips(&self) -> u64 {
         let rows = self.rows();
@@ -167,8 +172,8 @@ impl ThresholdTable {
         least
     }
 
-    /// Returns the minima that are nearest to the limits, at most `most`, the nearest first, and the
-    /// number of minima that were compared. The search begins at `start`.
+    /// Returns the minima that are nearest to the limits, at most `most`, the nearest first, and
+    /// the number of minima that were compared. The search begins at `start`.
     #[must_use]
     pub fn nearest(
         &self,
@@ -206,9 +211,9 @@ impl ThresholdTable {
         groups
     }
 
-    /// Calls `compare` for the start and for all pairs of a minimum count and a minimum score of one
-    /// feature after the other, from the last minima for which it returned true, until no more are
-    /// better. With one feature these are all minima.
+    /// Calls `compare` for the start and for all pairs of a minimum count and a minimum score of
+    /// one feature after the other, from the last minima for which it returned true, until no more
+    /// are better. With one feature these are all minima.
     fn for_each_neighborhood(
         &self,
         start: ChosenSteps,
@@ -256,7 +261,8 @@ impl ThresholdTable {
         self.areas.iter().map(row).collect()
     }
 
-    /// Returns the rates with some minima, the share of the area that is active, and the area that flips.
+    /// Returns the rates with some minima, the share of the area that is active, and the area that
+    /// flips.
     fn sums(&self, rows: &[TableRow], chosen: &ChosenSteps) -> ([f64; 3], f64, u64) {
         let (mut all, mut flips) = (0, 0);
         let (mut ideal, mut candidate, mut both) = (0, 0, 0);

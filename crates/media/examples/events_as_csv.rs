@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Prints the events of a file in EVT 2.0, EVT 3.0 or AEDAT4 as CSV: `cargo run --release -p foveate-eventfiles
-//! --example events_as_csv -- FILE > events.csv`.
+//! Prints the events of a file in EVT 2.0, EVT 3.0 or AEDAT4 as CSV: `cargo run --release -p
+//! foveate-eventfiles --example events_as_csv -- FILE > events.csv`.
 
 use std::error::Error;
 use std::fs::File;

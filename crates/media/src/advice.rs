@@ -107,8 +107,8 @@ fn missing_labels_warning(path: &Path) -> String {
     )
 }
 
-/// Returns a warning if images, which have ground-truth boxes, are turned by their EXIF data, but are
-/// read as they are stored: boxes are mostly drawn on upright pictures.
+/// Returns a warning if images, which have ground-truth boxes, are turned by their EXIF data, but
+/// are read as they are stored: boxes are mostly drawn on upright pictures.
 #[must_use]
 pub fn turned_images_warning(images: &[PathBuf]) -> Option<String> {
     /// The number of images that are looked at.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Luma of a mosaic of colours, as a sensor with a Bayer filter gives it.
 //!
-//! The two colours that a pixel lacks are the mean of those of the nearest pixels that have them: four
-//! or two, halves rounded up. Beyond the edge lies the mirror image of the frame, so that the second
-//! row follows the first again. Red, green and blue then become luma by [`luma`].
+//! The two colours that a pixel lacks are the mean of those of the nearest pixels that have them:
+//! four or two, halves rounded up. Beyond the edge lies the mirror image of the frame, so that the
+//! second row follows the first again. Red, green and blue then become luma by [`luma`].
 
 use std::fmt;
 

@@ -54,8 +54,8 @@ fn class_rows(path: &Path) -> Result<Vec<String>, FootageError> {
     Ok(rows)
 }
 
-/// Returns the class of a colour of an image whose largest level is `white`, or `None` if the colour
-/// is no class. The grey levels 1 and 2 of an image of 2 bits are 85 and 170 of 255.
+/// Returns the class of a colour of an image whose largest level is `white`, or `None` if the
+/// colour is no class. The grey levels 1 and 2 of an image of 2 bits are 85 and 170 of 255.
 fn class_of_colour(colour: [u16; 3], white: u16) -> Option<RegionClass> {
     match colour {
         [0, 0, 0] => Some(RegionClass::Normal),

@@ -291,8 +291,8 @@ fn open_scene(
     Ok(Box::new(SceneFeed::new(scene, size, options.frame_rate)))
 }
 
-/// Opens raw video from one file or pipe. Only a name that ends with `.gz` says that a file is gzipped, because pixels
-/// may begin as a gzipped file does.
+/// Opens raw video from one file or pipe. Only a name that ends with `.gz` says that a file is
+/// gzipped, because pixels may begin as a gzipped file does.
 fn open_raw_input(
     inputs: &[&Path],
     layout: RawLayout,

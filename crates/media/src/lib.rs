@@ -3,9 +3,10 @@
 //!
 //! [`open`] turns an input (video, files, folders, globs, `scene:NAME`) into a [`FrameSource`] of
 //! frames of the design's depth; [`plan`](fn@plan) decides whether inputs are one clip or many.
-//! [`boxes`] reads the positions of objects in the frames. A [`ClipPlayer`] shows frames to cameras.
-//! An [`EventReader`] reads the files of ordinary event cameras, and an [`EventEncoder`] makes them.
-//! Memory does not grow with the number of frames. This crate does not know what happens to the frames.
+//! [`boxes`] reads the positions of objects in the frames. A [`ClipPlayer`] shows frames to
+//! cameras. An [`EventReader`] reads the files of ordinary event cameras, and an [`EventEncoder`]
+//! makes them. Memory does not grow with the number of frames. This crate does not know what
+//! happens to the frames.
 
 mod address;
 mod advice;

@@ -7,8 +7,8 @@ pub enum LumaRange {
     /// The luma as it was coded. In most video black is 16 and white is 235, of 8 bits.
     #[default]
     Coded,
-    /// The luma with black at 0 and white at the largest value, as players, OpenCV and `ffmpeg -pix_fmt gray`
-    /// expand it. Video that is coded with the full range is not changed.
+    /// The luma with black at 0 and white at the largest value, as players, OpenCV and
+    /// `ffmpeg -pix_fmt gray` expand it. Video that is coded with the full range is not changed.
     Full,
 }
 
@@ -23,8 +23,8 @@ impl LumaRange {
     }
 }
 
-/// Expands a sample of `depth` bits, at least 8, from the narrow range, in which black is 16 and white is 235, of 8
-/// bits. Values outside are limited. Halves are rounded up.
+/// Expands a sample of `depth` bits, at least 8, from the narrow range, in which black is 16 and
+/// white is 235, of 8 bits. Values outside are limited. Halves are rounded up.
 pub(crate) fn expanded(sample: u16, depth: u32) -> u16 {
     let unit = 1_u32 << (depth - 8);
     let (black, white) = (16 * unit, 235 * unit);

@@ -9,8 +9,8 @@ pub enum Orientation {
     /// The rows and columns as they are stored. Marks of cameras and phones are ignored.
     #[default]
     Stored,
-    /// Turned and mirrored as the mark in the file says: the EXIF orientation of images, the display
-    /// matrix of video. A file without a mark is not changed.
+    /// Turned and mirrored as the mark in the file says: the EXIF orientation of images, the
+    /// display matrix of video. A file without a mark is not changed.
     Upright,
 }
 
@@ -35,8 +35,8 @@ pub(crate) struct FrameTurn {
 }
 
 impl FrameTurn {
-    /// Returns the turn of a matrix of signs `[a, b, c, d]`: the stored column x and row y become the column a x + c y
-    /// and the row b x + d y. Returns `None` if the matrix is not such a turn.
+    /// Returns the turn of a matrix of signs `[a, b, c, d]`: the stored column x and row y become
+    /// the column a x + c y and the row b x + d y. Returns `None` if the matrix is not such a turn.
     pub(crate) fn of_axes(signs: [i64; 4]) -> Option<Self> {
         let (is_transposed, column, row) = match signs {
             [a, 0, 0, d] if a != 0 && d != 0 => (false, a, d),

@@ -18,8 +18,8 @@ pub struct RawLayout {
 enum SampleOrder {
     /// One sample per pixel.
     Grey,
-    /// A plane of luma, then those of colours, for each of which a block of so many columns and rows has a
-    /// sample.
+    /// A plane of luma, then those of colours, for each of which a block of so many columns and
+    /// rows has a sample.
     Planes { columns: u64, rows: u64 },
     /// Luma and colours in turn, two bytes per pixel; the luma is at this place of the two.
     Pairs { luma: usize },
@@ -84,7 +84,8 @@ impl RawLayout {
     /// Parses a layout such as `640x480,gray16le`.
     ///
     /// # Errors
-    /// Fails if the text is not a size and a pixel format that is read, with a text that says what is expected.
+    /// Fails if the text is not a size and a pixel format that is read, with a text that says what
+    /// is expected.
     pub fn parse(text: &str) -> Result<Self, String> {
         let (size, name) = text
             .split_once(',')
@@ -113,7 +114,8 @@ impl RawLayout {
         self.format.order == SampleOrder::Grey
     }
 
-    /// Returns true if the pixels are luma and colours of video, so that their luma may have a narrow range.
+    /// Returns true if the pixels are luma and colours of video, so that their luma may have a
+    /// narrow range.
     pub(crate) fn has_video_luma(self) -> bool {
         match self.format.order {
             SampleOrder::Grey | SampleOrder::Colours { .. } => false,
@@ -155,8 +157,8 @@ impl RawLayout {
         if self.format.depth > 8 { 2 } else { 1 }
     }
 
-    /// Returns the layout of the samples that [`sorted`](Self::sorted) leaves. Luma of video with colours is
-    /// expanded if `is_full`.
+    /// Returns the layout of the samples that [`sorted`](Self::sorted) leaves. Luma of video with
+    /// colours is expanded if `is_full`.
     pub(crate) fn samples(self, is_full: bool) -> SampleLayout {
         SampleLayout {
             is_colour: !self.is_grey() && !self.has_video_luma(),

@@ -18,7 +18,8 @@ pub(crate) struct SampleLayout {
     pub(crate) is_colour: bool,
     /// True if words have their high byte first.
     pub(crate) is_big_endian: bool,
-    /// True if luma has the narrow range, of 16 to 235 of 8 bits, and is expanded. Colours have all values.
+    /// True if luma has the narrow range, of 16 to 235 of 8 bits, and is expanded. Colours have all
+    /// values.
     pub(crate) is_expanded: bool,
 }
 

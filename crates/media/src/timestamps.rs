@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Times that a file gives to frames without times of their own, such as images.
+//! The times of frames that have none of their own, such as images: those of a file
+//! ([`TimestampsFile`]), or those of a [`FrameRate`].
 //!
-//! A line has the time of a frame, as a decimal number. The name of the frame's file may follow or
-//! precede it, separated by a comma or by white space. Empty lines and lines that begin with `#` are ignored.
-//!
-//! The frame rate, its notation, and the times of frames.
+//! A line of the file has the time of a frame, as a decimal number. The name of the frame's
+//! file may follow or precede it, separated by a comma or by white space. Empty lines and lines
+//! that begin with `#` are ignored.
 
 use crate::FootageError;
 use foveate_tools::{Interrupt, InterruptibleReader, LimitedReader, open_interruptibly};
@@ -13,7 +13,8 @@ use std::path::{Path, PathBuf};
 
 /// The largest file of times in bytes.
 const MAX_BYTES: u64 = 1 << 26;
-/// The longest time between the first frame and the last in ns, ten years. More is most likely another unit.
+/// The longest time between the first frame and the last in ns, ten years. More is most likely
+/// another unit.
 const MAX_SPAN_NS: i128 = 3653 * 24 * 3600 * 1_000_000_000;
 /// The largest number of characters of a line in messages.
 const MAX_SHOWN: usize = 60;

@@ -3,8 +3,8 @@
 //! length.
 //!
 //! * Luma is the Y plane as it was coded, without a change of range: 16..235 stays 16..235, unless
-//!   [`LumaRange::Full`] is wanted. A clip gives the same values through `ffmpeg -f yuv4mpegpipe`. RGB
-//!   video becomes luma as images do.
+//!   [`LumaRange::Full`] is wanted. A clip gives the same values through `ffmpeg -f yuv4mpegpipe`.
+//!   RGB video becomes luma as images do.
 //! * ffmpeg's `showinfo` filter writes size, format and time of a frame to the standard error
 //!   before the frame itself comes through the pipe. So times are those of the container, and a
 //!   change of size in the stream is detected. `-fps_mode passthrough` prevents ffmpeg from

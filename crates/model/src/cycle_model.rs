@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The interface of the cycle-level models of all organizations: the inputs at a clock edge,
-//! and the questions that test drivers ask. The stream of a region to its RPU: the pixels with
-//! their halo, and the sides of the region that are sides of the frame.
+//! The interface of the cycle-level models of all organizations ([`CycleModel`]): the inputs at
+//! a clock edge ([`CoreInput`]), and the questions that test drivers ask. What a region gets at
+//! a port is the same for all of them: its pixels with their halo ([`region_stream`]), and the
+//! sides of it that are sides of the frame ([`region_border`]).
 
 use crate::region::RegionArea;
 use crate::{ClassMapInputs, ThresholdInputs, ZoneInputs};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The functional model: an RCM and its renderer, one whole frame at a time. It is the
-//! reference for all other models. The screen: the pixels of each region after its action.
+//! The functional model ([`FunctionalCamera`]): an RCM and its renderer, one whole frame at a
+//! time. It is the reference for all other models. Its screen has the pixels of each region
+//! after its action.
 
 use super::region::{FrameRegion, combine_votes};
 use crate::ModelError;
@@ -105,7 +106,8 @@ pub struct FunctionalCamera {
 }
 
 impl FunctionalCamera {
-    /// Makes a camera in the state after a reset, whose regions have the classes of the configuration.
+    /// Makes a camera in the state after a reset, whose regions have the classes of the
+    /// configuration.
     #[must_use]
     pub fn new(camera: &Camera) -> Self {
         Self {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The areas of regions in the padded frame, and the padding itself. The view of a region that
-//! every score is computed from: its pixels, the windows around them, and its reference. A new
-//! score can use all of it. The rules by which votes become SRS, and by which SRS and TRS
-//! become an action.
+//! A region as all models see it: its place in the padded frame ([`RegionArea`]), the pixels
+//! that every score is computed from ([`RegionView`]), and its action, which follows from
+//! votes, SRS and TRS ([`region_action`]). A new score can use all of a view: its pixels, the
+//! windows around them, and its reference.
 
 use crate::ModelError;
 use crate::conversions::index;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The scores of one region, computed from its stream alone. A square of pixels: a region with
-//! its halo.
+//! The scores of one region, computed from its stream alone ([`RegionScorer`]). The stream
+//! fills a square of pixels: a region with its halo ([`PixelSquare`]).
 
 use super::cycle_model::{BOTTOM, LEFT, RIGHT, TOP};
 use super::region::RegionView;

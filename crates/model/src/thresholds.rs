@@ -56,8 +56,8 @@ pub(crate) struct ClassThresholdInputs<'a> {
 }
 
 impl<'a> ClassThresholdInputs<'a> {
-    /// Makes the thresholds of a core that has these inputs. Without zones all classes have the same
-    /// thresholds.
+    /// Makes the thresholds of a core that has these inputs. Without zones all classes have the
+    /// same thresholds.
     pub(crate) fn new(own: &'a ThresholdInputs, zones: Option<ZoneInputs<'a>>) -> Self {
         Self {
             own,

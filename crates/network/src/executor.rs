@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Runs a network frame by frame, and recomputes only what may have changed. A start time that
-//! also exists where there is no clock.
+//! Runs a network frame by frame, and recomputes only what may have changed ([`Executor`]). It
+//! measures its time where there is a clock ([`OptionalInstant`]).
 
 use super::tensor::TensorForm;
 use crate::comparison::{changed_positions, copy_positions};

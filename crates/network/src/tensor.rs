@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A tensor: a form with its values. The shape of a tensor, the axes that are positions in the
-//! frame, and the type of its values. The axis order of the input of a model.
+//! A tensor ([`Tensor`]): values with a form, which is a shape, the axes of it that are
+//! positions in the frame, and the type of its values ([`TensorForm`]). The input of a model
+//! has its axes in an order of its own ([`InputLayout`]).
 
 use crate::element::{ElementType, Encoding, with_element_type};
 use crate::mask::Mask;

@@ -45,9 +45,9 @@ pub fn text_width(text: &str, em: u32) -> u32 {
     picture_font().map_or(0, |font| whole(place_letters(&font, text, em as f32, 0.0).1))
 }
 
-/// Draws a text whose letters stand on the row `baseline`, from the column `left` on. `blend` gets the
-/// column and row of each pixel, and the share of it that the letters cover, from 0 to 1. `em` is the
-/// size of the text in pixels; capitals have 0.73 of it. Returns the width of the text.
+/// Draws a text whose letters stand on the row `baseline`, from the column `left` on. `blend` gets
+/// the column and row of each pixel, and the share of it that the letters cover, from 0 to 1. `em`
+/// is the size of the text in pixels; capitals have 0.73 of it. Returns the width of the text.
 pub fn draw_text(
     text: &str,
     em: u32,

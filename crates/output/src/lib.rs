@@ -1,5 +1,5 @@
-//! The forms of results: arrays and tables as files, colours by meaning, charts and pages. The crate
-//! does not depend on the meaning of the data.
+//! The forms of results: arrays and tables as files, colours by meaning, charts and pages. The
+//! crate does not depend on the meaning of the data.
 
 pub mod chart;
 pub mod lettering;

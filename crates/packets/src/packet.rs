@@ -227,8 +227,8 @@ impl Packet {
     }
 }
 
-/// Parses the payload of a FRAME. A FRAME of another version or design is accepted, too, so that the
-/// reader can report it.
+/// Parses the payload of a FRAME. A FRAME of another version or design is accepted, too, so that
+/// the reader can report it.
 fn frame(head: PacketHead, payload: &[u8], layout: Option<&PacketLayout>) -> Option<FrameInfo> {
     if !payload.starts_with(&MAGIC) {
         return None;

@@ -14,14 +14,14 @@ use crate::packet_layout::{
 };
 use crate::{EndPacket, PacketError, RegionDecision, RegionFlags, RegisterPacket};
 
-/// Appends the FRAME of frame `number`. The time is in ticks. In a design with zones, the frame uses
-/// the map of classes of the configuration, which has version 0.
+/// Appends the FRAME of frame `number`. The time is in ticks. In a design with zones, the frame
+/// uses the map of classes of the configuration, which has version 0.
 pub fn append_frame(out: &mut Vec<u8>, layout: &PacketLayout, number: u32, start: (u64, bool)) {
     append_checked_frame(out, layout, number, start, 0);
 }
 
-/// Appends the FRAME of frame `number`, which uses the map of classes with this version. The time is
-/// in ticks.
+/// Appends the FRAME of frame `number`, which uses the map of classes with this version. The time
+/// is in ticks.
 ///
 /// # Errors
 /// Fails if the version is not 0 in a design without zones.

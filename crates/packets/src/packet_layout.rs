@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The lengths of the packets of a design, and the ranges of their fields. The fields of the
-//! 64-bit words that all packets consist of.
+//! The places of everything in the packets of a design: the lengths of the packets, the ranges
+//! of their fields ([`PacketLayout`]), and the fields of the 64-bit words that all packets
+//! consist of.
 
 use crate::{FrameInfo, PacketError};
 use foveate_camera::{Camera, IrrelevantRendering, Payload, SpatialFeature};
@@ -96,8 +97,8 @@ impl PacketLayout {
         Ok(Self { info, score_max, flow_radius, has_zones })
     }
 
-    /// Returns the content of every FRAME of the design, in which `time` and `map_version` are 0 and
-    /// `first` is false.
+    /// Returns the content of every FRAME of the design, in which `time` and `map_version` are 0
+    /// and `first` is false.
     #[must_use]
     pub fn info(&self) -> &FrameInfo {
         &self.info
@@ -132,7 +133,8 @@ impl PacketLayout {
         self.flow_radius.is_some()
     }
 
-    /// Returns whether FRAMEs carry the version of a map of classes. In other designs it is always 0.
+    /// Returns whether FRAMEs carry the version of a map of classes. In other designs it is
+    /// always 0.
     #[must_use]
     pub fn has_zones(&self) -> bool {
         self.has_zones
@@ -143,8 +145,8 @@ impl PacketLayout {
         if self.has_zones { u16::MAX } else { 0 }
     }
 
-    /// Returns false if a FRAME is one of this design and has a version of a map of classes that the
-    /// design cannot have. Another design may have zones.
+    /// Returns false if a FRAME is one of this design and has a version of a map of classes that
+    /// the design cannot have. Another design may have zones.
     pub(crate) fn has_possible_map(&self, info: &FrameInfo) -> bool {
         info.fingerprint != self.info.fingerprint || info.map_version <= self.map_version_max()
     }

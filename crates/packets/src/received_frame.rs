@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A received frame: its decisions, its regions and its losses. Converts the times of frames
-//! from ticks, which may be wrong, to microseconds since the first frame.
+//! A received frame ([`ReceivedFrame`]): its decisions, its regions and its losses. A
+//! [`FrameClock`] gives it a time in microseconds since the first frame; it comes in ticks,
+//! which may be wrong.
 
 use super::packet_layout::index;
 use crate::{
@@ -168,8 +169,8 @@ impl ReceivedFrame {
             (0..self.contents.len()).map(|region| self.is_decided(region)).collect();
         let regions = self.decisions.iter_mut().zip(&mut self.contents).zip(decided);
         for (region, ((decision, content), is_decided)) in regions.enumerate() {
-            // In both values, `None` stands for no packet, true for a packet of means, and false for
-            // one of pixels.
+            // In both values, `None` stands for no packet, true for a packet of means, and false
+            // for one of pixels.
             let received_means =
                 content.as_ref().map(|content| matches!(content, RegionContent::Means(_)));
             if !is_decided {

@@ -137,8 +137,8 @@ impl Frame {
     /// Writes the pixel at column `x` and row `y`.
     ///
     /// # Panics
-    /// Panics if the position is outside of the frame, or if the pixel does not fit into the frame's
-    /// bits.
+    /// Panics if the position is outside of the frame, or if the pixel does not fit into the
+    /// frame's bits.
     pub fn set(&mut self, x: u32, y: u32, pixel: u16) {
         let max = u16::MAX >> (16 - self.bits);
         assert!(pixel <= max, "a pixel above {max} in row {y}");

@@ -1,10 +1,11 @@
 //! Frames of pixels, their vectors, and synthetic scenes.
 //!
-//! A [`Frame`] has width x height luma pixels of 1 to 16 bits in row-major order, every value checked
-//! once. It holds words, and the models compute on it. [`ByteFrame`] holds bytes for up to 8 bits
-//! per pixel and words for more, so that video is neither widened nor copied on its way to the
-//! engine. Both report the same [`FrameError`]. A [`Rect`] is a rectangle in a frame. A [`Scene`]
-//! makes frames, and [`vectors`] computes on many pixels at once. This crate knows no design.
+//! A [`Frame`] has width x height luma pixels of 1 to 16 bits in row-major order, every value
+//! checked once. It holds words, and the models compute on it. [`ByteFrame`] holds bytes for up to
+//! 8 bits per pixel and words for more, so that video is neither widened nor copied on its way to
+//! the engine. Both report the same [`FrameError`]. A [`Rect`] is a rectangle in a frame. A
+//! [`Scene`] makes frames, and [`vectors`] computes on many pixels at once. This crate knows no
+//! design.
 
 mod byte_frame;
 mod depth;

@@ -45,7 +45,8 @@ mod tests {
 
     use super::*;
 
-    /// Returns the boxes of a frame of 22x14 pixels whose regions have a side of 4, from marks of active regions.
+    /// Returns the boxes of a frame of 22x14 pixels whose regions have a side of 4, from marks of
+    /// active regions.
     fn boxes(marks: [&str; 4]) -> Vec<[u32; 4]> {
         let mut config = CameraConfig::default();
         (config.frame.width, config.frame.height) = (Some(22), Some(14));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The stalls of a sink, read from a table. The file `losses.csv`, with one line for each item
-//! that is missing from a stream. It exists only if something is missing.
+//! Two tables beside a run: the stalls of a sink, which it reads ([`read_stalls`]), and
+//! `losses.csv`, which it writes if something is missing from a stream, with one line for each
+//! missing item ([`LossTable`]).
 
 use crate::SimulatorError;
 use crate::output::CsvFile;
@@ -15,8 +16,8 @@ const MAX_STALLS: usize = 1 << 22;
 /// The largest number of characters of a wrong line in a message.
 const SHOWN_CHARACTERS: usize = 60;
 
-/// Reads a table of stalls. It has the columns `clock` and `clocks`: the first edge at which the sink
-/// takes no word, and the number of these edges.
+/// Reads a table of stalls. It has the columns `clock` and `clocks`: the first edge at which the
+/// sink takes no word, and the number of these edges.
 ///
 /// # Errors
 /// Fails if the file cannot be read, or if it is no list of stalls in order and without overlaps.

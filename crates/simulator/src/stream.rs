@@ -102,8 +102,8 @@ impl PacketStream {
         self.decoder.as_ref().is_some_and(|run| run.assembler.layout().info().has_scores)
     }
 
-    /// Returns the next item as [`PacketStream::receive`] does. A FRAME packet of another camera among
-    /// frames of this one is a loss.
+    /// Returns the next item as [`PacketStream::receive`] does. A FRAME packet of another camera
+    /// among frames of this one is a loss.
     ///
     /// # Errors
     /// Fails if a FRAME packet does not belong to this camera, and no other did before.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The timing of a core of any organization, and the core that has it. The rows of a table of
-//! clocks: transactions, region by region.
+//! The clocks of a core of any organization: the numbers from which they follow, which also
+//! make the core ([`CoreTiming`]), and the rows of their table, with the transactions region by
+//! region ([`ClockRow`]).
 
 use crate::pipelined::PipelinedCore;
 use crate::raster::RasterCore;

@@ -20,9 +20,9 @@ pub struct FrameTraffic {
     pub last_word: Option<u64>,
     /// The number of its regions that were lost.
     pub lost_regions: u64,
-    /// The largest number of regions, of this frame and of those before, that wait at a clock before
-    /// the next frame. A region waits from its decision until its last word is on the ports, or
-    /// until it is lost.
+    /// The largest number of regions, of this frame and of those before, that wait at a clock
+    /// before the next frame. A region waits from its decision until its last word is on the ports,
+    /// or until it is lost.
     pub waiting_regions: u64,
 }
 
@@ -56,8 +56,8 @@ impl TrafficMeter {
         }
     }
 
-    /// Begins a frame whose latencies count from edge `since`, which is not before that of the frame
-    /// before. The model must not have the frame yet.
+    /// Begins a frame whose latencies count from edge `since`, which is not before that of the
+    /// frame before. The model must not have the frame yet.
     pub fn begin_frame(&mut self, since: u64) {
         self.frames.push_back(FrameTraffic {
             frame: self.frame,
@@ -80,8 +80,8 @@ impl TrafficMeter {
         }
     }
 
-    /// Ends the frame that was begun last, when the model has taken it. Returns the oldest frame, if
-    /// no transaction of it can follow.
+    /// Ends the frame that was begun last, when the model has taken it. Returns the oldest frame,
+    /// if no transaction of it can follow.
     pub fn end_frame(&mut self) -> Option<FrameTraffic> {
         let since = self.frames.back()?.since;
         if let Some(before) = self.frames.len().checked_sub(2) {

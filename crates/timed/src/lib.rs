@@ -7,8 +7,8 @@
 //! the formulas of `docs/timing.md`, `docs/serial.md`, `docs/raster.md` and `docs/sync.md`, with
 //! the latencies of `foveate-design`. It yields [`Transaction`]s and no ports: a run of decisions,
 //! a run of words at consecutive clocks, a lost region. The time and the memory that it takes
-//! depend on the number of regions and not on the number of clocks. A [`TimedClip`] takes the frames
-//! of a clip at their times, and yields transactions as the [rows](ClockRow) of a table.
+//! depend on the number of regions and not on the number of clocks. A [`TimedClip`] takes the
+//! frames of a clip at their times, and yields transactions as the [rows](ClockRow) of a table.
 //!
 //! Edges are numbered from 0 through the whole run, resets included. The *clock* of a transaction
 //! is the number of the edge after which it is on the ports.

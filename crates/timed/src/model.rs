@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The model: deliveries, the search for frames in them, and the core behind it. The search for
-//! frames in the stream of beats, by the rules of `docs/sync.md`.
+//! The model ([`TimedModel`]): it searches the deliveries of a source for frames, by the rules
+//! of `docs/sync.md` ([`StreamState`]), and gives them to the core behind it.
 
 use super::sink::NEVER;
 use super::transaction::KeptPixels;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The sink of forwarded words, as a source of stalls. The description of a sink, from which
-//! any number of equal sinks can be made. The frames that a source delivers, with the clocks at
-//! which it offers their beats.
+//! The surroundings of a core, by their clocks. Behind it is a [`Sink`] of forwarded words,
+//! which stalls; a [`SinkPattern`] describes it, so that any number of equal sinks can be made.
+//! In front of it is a source, which delivers frames and offers their beats at certain clocks
+//! ([`FrameDelivery`]).
 
 use foveate_pixels::FramePixels;
 use std::fmt::Debug;

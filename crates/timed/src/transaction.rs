@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Transactions: what comes out of a core, in runs of events at consecutive or evenly spaced
-//! clocks. The values of the words that leave: pixels of the engine's last frame, or copies of
-//! earlier ones.
+//! What comes out of a core: runs of events at consecutive or evenly spaced clocks
+//! ([`Transaction`]). The values of words that leave are those of pixels of the engine's last
+//! frame, or copies of earlier ones ([`SentValues`]).
 
 use crate::SentKind;
 use foveate_camera::RegionAction;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Finds, checks and runs the external tools, and caches what they build. Reads files of strangers up to
-//! a limit, and writes files and folders that are there whole or not at all.
+//! Finds, checks and runs the external tools, and caches what they build. Reads files of strangers
+//! up to a limit, and writes files and folders that are there whole or not at all.
 //!
 //! A [`Toolchain`] finds each [`Tool`] once, refuses versions that are too old, and runs
 //! [`Invocation`]s. Builds are kept in a [`Cache`] under the hash of all their inputs. The modules
 //! [`verilator`], [`iverilog`], [`yosys`] and [`nextpnr`] each run one tool; [`SynthesisJob`]
-//! synthesizes with Yosys for a Xilinx device. [`escaping`] escapes user text in scripts. [`read_text`],
-//! [`table_reader`] and [`LimitedReader`] read files; [`write_file`], [`StagedFolder`] and
-//! [`GrowingFile`] write them.
+//! synthesizes with Yosys for a Xilinx device. [`escaping`] escapes user text in scripts.
+//! [`read_text`], [`table_reader`] and [`LimitedReader`] read files; [`write_file`],
+//! [`StagedFolder`] and [`GrowingFile`] write them.
 
 pub mod cache;
 mod cache_key;

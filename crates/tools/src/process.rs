@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Runs one child process. Input and output go through files, never through pipes, so a child
-//! that writes much before it reads cannot block, and a grandchild that outlives the child
-//! cannot delay this process. A stop of the child also stops all processes that it started.
+//! Runs one child process ([`run`]), and ends it with all processes that it has started:
+//! verilator, yosys and iverilog run other programs. Input and output go through files, never
+//! through pipes, so a child that writes much before it reads cannot block, and a grandchild
+//! that outlives the child cannot delay this process.
 //!
-//! A child process and all processes that it starts; verilator, yosys and iverilog run other
-//! programs.
-//!
-//! Each family is a process group of its own. An interrupt from the terminal therefore reaches only
-//! this program, which decides how to end. A signal that ends the group ends every member. Families
-//! that have not ended are registered, so that a process that exits at once leaves none of them
-//! running.
+//! A child and its descendants are a process group of their own ([`ProcessFamily`]). An
+//! interrupt from the terminal therefore reaches only this program, which decides how to end. A
+//! signal that ends the group ends every member. Families that have not ended are registered,
+//! so that a process that exits at once leaves none of them running
+//! ([`end_all_process_families`]).
 
 use crate::error::ToolError;
 use crate::interrupt::flag_is_set_soon;

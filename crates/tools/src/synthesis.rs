@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Synthesizes an array with Yosys, for the LUTs, carry chains and memories of Xilinx
-//! UltraScale+.
+//! UltraScale+ ([`SynthesisJob`]).
 //!
-//! A reduced library of Xilinx cells for Yosys. The full library declares the ports of cells that
-//! Yosys does not model; the reduced library omits the cells that no core can have.
+//! Yosys gets a reduced library of Xilinx cells ([`reduced_cell_library`]). The full library
+//! declares the ports of cells that Yosys does not model; the reduced library omits the cells
+//! that no core can have. `synth_xilinx` begins with the ports of 328 cells, from pads to
+//! processors, and carries them through all of its steps. Its rules for `UltraScale+` use four
+//! of them. Without the others, a small core is synthesized in two thirds of the time.
 //!
-//! `synth_xilinx` begins with the ports of 328 cells, from pads to processors, and carries them
-//! through all of its steps. Its rules for `UltraScale+` use four of them. Without the others, a
-//! small core is synthesized in two thirds of the time.
-//!
-//! The netlist stays the same. Yosys orders nets by the numbers that names get when they are first
-//! read, so all names of the file are read before the four cells.
+//! The netlist stays the same. Yosys orders nets by the numbers that names get when they are
+//! first read, so all names of the file are read before the four cells.
 
 use crate::cache::Cache;
 use crate::cache_key::CacheKey;

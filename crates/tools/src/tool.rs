@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The external tools: the name of each, its oldest version, and how to install it. A tool that
-//! was found, and the identity of its executable.
+//! The external tools ([`Tool`]): the name of each, its oldest version, and how to install it.
+//! One that was found has an executable, by whose identity results are cached
+//! ([`LocatedTool`]).
 
 use std::fmt;
 use std::path::{Path, PathBuf};

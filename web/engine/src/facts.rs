@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The facts about a camera that a page gets. The description of what a page can offer:
-//! presets, scenes, keys with their values, features with their defaults. All of it comes from
-//! the tables that the command uses, so that a page has no range of its own. The limits of
-//! everything that grows.
+//! What a page is told, so that it has no range of its own: the facts about a camera
+//! ([`camera_facts`]), the description of what it can offer, as presets, scenes, keys with
+//! their values, and features with their defaults ([`page_description`]), and the limits of
+//! everything that grows. The description comes from the tables that the command uses.
 
 use foveate_camera::toml_text::TomlConfig as _;
 use foveate_camera::{

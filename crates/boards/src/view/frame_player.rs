@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The frames of an input, for a page that asks for one after the other. A clip waits for the
-//! page: a frame is taken when it is asked for, and none is lost. A camera does not wait: the
-//! page gets the newest frame. The data from which a browser draws a frame.
+//! What pages get as bytes: the frames of an input ([`FramePlayer`]), the frame of a stream
+//! ([`frame_bytes`]), and data within HTML ([`encode`]). A clip waits for the page: a frame is
+//! taken when it is asked for, and none is lost. A camera does not wait: the page gets the
+//! newest frame.
 //!
-//! Bytes as text in base 85, which takes a sixth less space than base64: five characters stand for
-//! four bytes.
-//!
-//! The characters are harmless in an element of HTML. `web/engine_text.js` reads the text.
+//! Data within HTML are in base 85, which takes a sixth less space than base64: five characters
+//! stand for four bytes, and none of them means anything in an element of HTML.
+//! `web/engine_text.js` reads the text.
 
 use foveate_camera::CameraConfig;
 use foveate_design::Design;
@@ -59,8 +59,8 @@ struct PlayerState {
     restart_requested: bool,
     is_over: bool,
     messages: Vec<String>,
-    /// The pages that have asked for a frame, the last to begin at the end. Only that one gets frames, because two pages
-    /// would take frames from each other.
+    /// The pages that have asked for a frame, the last to begin at the end. Only that one gets
+    /// frames, because two pages would take frames from each other.
     viewers: Vec<String>,
 }
 
@@ -352,8 +352,8 @@ pub(crate) fn frame_bytes(frame: &ShownFrame) -> Vec<u8> {
 pub(crate) const DIGITS: &[u8; 85] =
     b"0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%()*+-.:;=?@[]^_{|}~";
 
-/// Encodes bytes. Every group of four, with the first byte as the most significant one, becomes five
-/// digits, the most significant first. A last group of n < 4 bytes becomes n + 1 digits.
+/// Encodes bytes. Every group of four, with the first byte as the most significant one, becomes
+/// five digits, the most significant first. A last group of n < 4 bytes becomes n + 1 digits.
 pub(crate) fn encode(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(bytes.len().div_ceil(4) * 5);
     for group in bytes.chunks(4) {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A server of a page for browsers of this machine. Without the link a browser gets nothing:
-//! every path begins with a random token. The name of the host must be the server's, so that a
-//! foreign page cannot reach it under another name. A [`PageSite`] provides the content. The
-//! connections of a server. There are never more than [`CONNECTIONS`], and a new connection
-//! always finds room: the connection that has been silent for the longest time is closed, and
-//! connections that have not shown the token of the link are closed first. So slow, idle or
-//! stuck connections do not affect a browser that behaves well. The part of HTTP/1.1 that a
-//! browser on the same machine needs: requests with a length, one after the other on a
-//! connection. Requests and answers have limits in bytes, lines and time. The content of
-//! `foveate view`: a stream of packets, and the registers of a board. The page of a view: one
-//! file, with the colours of the palette and the registers of the design.
+//! A server of one page for browsers of this machine ([`PageServer`]). Only a browser with the
+//! link gets anything, and slow, idle or stuck connections do not affect it.
+//!
+//! * Every path begins with the random token of the link. The name of the host must be the
+//!   server's, so that a foreign page cannot reach it under another name.
+//! * A new connection always finds room in the [`ConnectionTable`]: of its [`CONNECTIONS`], the
+//!   one that has been silent for the longest time is closed, and those that have not shown the
+//!   token are closed first.
+//! * A [`RequestStream`] knows only the part of HTTP/1.1 that a browser needs, with limits in
+//!   bytes, lines and time.
+//! * A [`PageSite`] provides the content; for `foveate view` it is a [`StreamSite`].
 
 use super::shared_stream::TimedStream;
 use crate::view::ViewError;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The present state of the stream, which the reader, the board and the browsers share. Only
-//! the newest frame is kept: a slow browser misses frames, and no other part waits for it. A
-//! connection with one deadline for a sequence of reads and writes. The timeouts of a socket
-//! apply to each read or write alone, so that a peer that sends a byte every few seconds would
-//! never exceed them.
+//! The state of a stream that the reader, the board and the browsers share ([`SharedStream`]).
+//! No part waits for another: only the newest frame is kept, so a slow browser misses frames,
+//! and a [`TimedStream`] ends a connection whose peer takes too long. Its deadline is for a
+//! whole sequence of reads and writes, because the timeouts of a socket apply to each of them
+//! alone.
 
 use super::frame_player::{design_facts, frame_bytes};
 use crate::view::input::Input;

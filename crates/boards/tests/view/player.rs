@@ -54,7 +54,8 @@ fn only_the_page_that_began_last_gets_frames() {
     assert_eq!(status_for(&link, "two", -1), "running");
     assert_eq!(status_for(&link, "one", 0), "taken");
     assert_eq!(status_for(&link, "two", 0), "running");
-    // A page takes the input back under another name. A page without a name gets frames in any case.
+    // A page takes the input back under another name. A page without a name gets frames in any
+    // case.
     assert_eq!(status_for(&link, "three", -1), "running");
     assert_eq!(status_for(&link, "two", 1), "taken");
     assert_eq!(frame(&link, 0).0["status"], "running");

@@ -34,8 +34,8 @@ pub(crate) struct AnalyzeArgs {
     /// Replace the folder if it holds a study
     #[arg(long)]
     pub(crate) force: bool,
-    /// For `sensor`: the sensor's own events, as CSV with the columns t_us, x, y, as .raw in EVT 2.0 or
-    /// EVT 3.0, or as .aedat4; plain or gzipped
+    /// For `sensor`: the sensor's own events, as CSV with the columns t_us, x, y, as .raw in EVT
+    /// 2.0 or EVT 3.0, or as .aedat4; plain or gzipped
     #[arg(long, value_name = "FILE")]
     pub(crate) sensor_events: Option<PathBuf>,
     /// For `sensor`: the time of the first frame on the clock of the events, in microseconds (0)

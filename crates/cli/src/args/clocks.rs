@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The options for the clocks of a core: its frequency, and the sink of its words. The options
-//! of a process in whose cells designs are measured.
+//! The options for the hardware that runs a design: the clock of a core and the sink of its
+//! words ([`ClockArgs`]), and the process in whose cells a design is measured
+//! ([`ProcessArgs`]).
 
 use super::DEFAULT_LIBERTY;
 use super::check::ClockFrequency;
@@ -71,9 +72,9 @@ impl ClockArgs {
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Silicon")]
 pub(crate) struct ProcessArgs {
-    /// Measure designs in the cells of this liberty file, too, plain or gzipped: area, clock and energy.
-    /// Without a file, the cells are those of Debian's package `qflow-tech-osu018`, of 0.18 um; then give
-    /// --liberty behind the inputs
+    /// Measure designs in the cells of this liberty file, too, plain or gzipped: area, clock and
+    /// energy. Without a file, the cells are those of Debian's package `qflow-tech-osu018`, of 0.18
+    /// um; then give --liberty behind the inputs
     #[arg(long, value_name = "FILE", num_args = 0..=1, default_missing_value = DEFAULT_LIBERTY)]
     pub(crate) liberty: Option<PathBuf>,
     /// Liberty files of memory macros of the same voltage, for memories that are too large for

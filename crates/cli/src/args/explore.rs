@@ -13,9 +13,10 @@ use super::threads::ThreadArgs;
 
 /// Measure many designs over clips: error against the ideal camera, area, speed, Pareto fronts
 ///
-/// Writes points.csv, points.parquet, clips.csv, a configuration for every point and report.html: first
-/// when the errors are known, and again as areas arrive. Finished results stay in the folder: if you run
-/// the same command again after an interrupt, or with a larger space, it computes only what is missing.
+/// Writes points.csv, points.parquet, clips.csv, a configuration for every point and report.html:
+/// first when the errors are known, and again as areas arrive. Finished results stay in the folder:
+/// if you run the same command again after an interrupt, or with a larger space, it computes only
+/// what is missing.
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate explore approximations scene:street -o out
           foveate explore space.toml street.mp4 bus.mp4 -o out --resize 640x360
@@ -34,9 +35,9 @@ pub(crate) struct ExploreArgs {
     /// Folder to write, or to continue
     #[arg(long, short, value_name = "DIR", required_unless_present_any = ["list", "print"])]
     pub(crate) output: Option<PathBuf>,
-    /// Show the designs a disturbed clip, while the ideal camera sees the clip as it is: noise=LEVELS,
-    /// jpeg=QUALITY, flicker=LEVELS, gain=PERCENT, saturation=FACTOR, shake=PIXELS or still=LEVELS (the
-    /// first frame, with noise)
+    /// Show the designs a disturbed clip, while the ideal camera sees the clip as it is:
+    /// noise=LEVELS, jpeg=QUALITY, flicker=LEVELS, gain=PERCENT, saturation=FACTOR, shake=PIXELS or
+    /// still=LEVELS (the first frame, with noise)
     #[arg(long, value_name = "KIND=VALUE")]
     pub(crate) disturb: Option<Disturbance>,
     /// Skip synthesis; Yosys is then not needed
@@ -71,7 +72,8 @@ pub(crate) struct ExploreArgs {
     #[command(flatten)]
     pub(crate) process: ProcessArgs,
     /// Measure the energy in the cells of --liberty, too, and the power at this frame rate. The
-    /// gates of each design are simulated on the clips, which takes half a minute for a design of 784 RPUs
+    /// gates of each design are simulated on the clips, which takes half a minute for a design of
+    /// 784 RPUs
     #[arg(long, value_name = "RATE", value_parser = FramesPerSecond::parse, requires = "liberty", help_heading = "Silicon")]
     pub(crate) energy: Option<FramesPerSecond>,
     #[command(flatten)]

@@ -55,9 +55,9 @@ pub(crate) struct FitArgs {
     /// Ground-truth boxes for --min-recall, in a format of `foveate analyze recall`
     #[arg(long, value_name = "FILE", requires = "min_recall")]
     pub(crate) boxes: Vec<PathBuf>,
-    /// Show the designs a disturbed clip, while the ideal camera sees the clip as it is: noise=LEVELS,
-    /// jpeg=QUALITY, flicker=LEVELS, gain=PERCENT, saturation=FACTOR, shake=PIXELS or still=LEVELS (the
-    /// first frame, with noise)
+    /// Show the designs a disturbed clip, while the ideal camera sees the clip as it is:
+    /// noise=LEVELS, jpeg=QUALITY, flicker=LEVELS, gain=PERCENT, saturation=FACTOR, shake=PIXELS or
+    /// still=LEVELS (the first frame, with noise)
     #[arg(long, value_name = "KIND=VALUE", conflicts_with = "network")]
     pub(crate) disturb: Option<Disturbance>,
     /// Cost that the search minimizes; by default bytes with --network, and area without it
@@ -167,12 +167,12 @@ pub(crate) struct ConstraintArgs {
     /// unless --network is given
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     pub(crate) max_flips: Option<f64>,
-    /// Largest share of the ideal camera's active regions that the design may miss, without the first
-    /// frame of every clip; 10% unless --network is given
+    /// Largest share of the ideal camera's active regions that the design may miss, without the
+    /// first frame of every clip; 10% unless --network is given
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     pub(crate) max_missed: Option<f64>,
-    /// Largest share of the design's active regions that are not active in the ideal camera, without
-    /// the first frame of every clip; 10% unless --network is given
+    /// Largest share of the design's active regions that are not active in the ideal camera,
+    /// without the first frame of every clip; 10% unless --network is given
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     pub(crate) max_false_alarms: Option<f64>,
     /// Smallest PSNR of the rendered frames against those of the ideal camera, in dB
@@ -203,15 +203,15 @@ pub(crate) struct ConstraintArgs {
     /// Largest area of the array in the cells of --liberty, in square millimetres
     #[arg(long, value_name = "MM2", value_parser = above_zero, requires = "liberty")]
     pub(crate) max_mm2: Option<f64>,
-    /// Largest power of the array in the cells of --liberty in milliwatts, at --min-fps in the busiest
-    /// stretch of the clips
+    /// Largest power of the array in the cells of --liberty in milliwatts, at --min-fps in the
+    /// busiest stretch of the clips
     #[arg(long, value_name = "MW", value_parser = above_zero, requires = "liberty")]
     pub(crate) max_mw: Option<f64>,
 }
 
 impl ConstraintArgs {
-    /// Returns the limits. With a network the configuration is only a start, so that decisions have no
-    /// limit unless one is given.
+    /// Returns the limits. With a network the configuration is only a start, so that decisions have
+    /// no limit unless one is given.
     pub(crate) fn constraints(&self, with_network: bool) -> Constraints {
         let by_default = |share: f64| (!with_network).then_some(share);
         Constraints {

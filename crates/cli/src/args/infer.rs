@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The options of `infer`. The options that say how a network is shown frames and how its
-//! outputs are read. Every command with these options has an argument `network`, and refuses
-//! the options if it is not given.
+//! The options for a network behind the camera. `infer` has all of them ([`InferArgs`]). Those
+//! that say how a network is shown frames and how its outputs are read ([`VisionArgs`]) are
+//! shared with other commands, which have an argument `network` and refuse the options without
+//! it.
 
 use super::DesignArgs;
 use super::input::InputArgs;

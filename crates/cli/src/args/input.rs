@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The options that say how inputs are read. The frames of the inputs, for commands that hold
-//! all of them in memory. The check that a configuration from standard input leaves it to no
-//! other argument.
+//! The inputs of a command: how they are read ([`InputArgs`]), and what is checked before they
+//! are. Standard input feeds only one argument ([`refuse_second_reader`]), and an output
+//! replaces none of the inputs ([`check_output`]).
 
 use super::{DesignArgs, at_least_one};
 use crate::error::CliError;
@@ -25,8 +25,8 @@ pub(crate) struct InputArgs {
     /// Take at most this many frames per second, chosen by their times; no frame is repeated
     #[arg(long, value_name = "RATE", value_parser = FrameRate::parse)]
     pub(crate) input_fps: Option<FrameRate>,
-    /// Take at most this many frames of every clip. A scene is made with exactly this many, of which
-    /// --start, --end and --input-fps choose
+    /// Take at most this many frames of every clip. A scene is made with exactly this many, of
+    /// which --start, --end and --input-fps choose
     #[arg(long, visible_alias = "frames", value_name = "N", value_parser = at_least_one())]
     pub(crate) max_frames: Option<u32>,
     /// Frame rate of images and of raw video, which have no times of their own
@@ -44,26 +44,28 @@ pub(crate) struct InputArgs {
     /// Scale every frame by area, after cropping
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub(crate) resize: Option<(u32, u32)>,
-    /// Range of the luma of video: as it was coded, where black is mostly 16 and white 235, or the full
-    /// range, to which players and OpenCV expand it
+    /// Range of the luma of video: as it was coded, where black is mostly 16 and white 235, or the
+    /// full range, to which players and OpenCV expand it
     #[arg(long, value_enum, value_name = "RANGE", default_value = "coded")]
     pub(crate) luma: LumaChoice,
-    /// Orientation of images and video: as they are stored, or upright, as the EXIF data and the marks of
-    /// phones say
+    /// Orientation of images and video: as they are stored, or upright, as the EXIF data and the
+    /// marks of phones say
     #[arg(long, value_enum, value_name = "HOW", default_value = "stored")]
     pub(crate) orientation: OrientationChoice,
-    /// Video stream that is read of a file with several, from 0. Without it, the stream that players
-    /// take is read, and other streams are named
+    /// Video stream that is read of a file with several, from 0. Without it, the stream that
+    /// players take is read, and other streams are named
     #[arg(long, value_name = "N")]
     pub(crate) video_stream: Option<usize>,
-    /// Read raw video of this size and pixel format, for example 640x480,gray16le, from a file, a pipe or -
+    /// Read raw video of this size and pixel format, for example 640x480,gray16le, from a file, a
+    /// pipe or -
     #[arg(long, value_name = "WxH,FORMAT", value_parser = RawLayout::parse)]
     pub(crate) raw: Option<RawLayout>,
-    /// Colours of the upper left 2x2 pixels of a mosaic, row by row; grey images and raw video are then
-    /// mosaics of a Bayer filter
+    /// Colours of the upper left 2x2 pixels of a mosaic, row by row; grey images and raw video are
+    /// then mosaics of a Bayer filter
     #[arg(long, value_enum, value_name = "PATTERN")]
     pub(crate) bayer: Option<BayerChoice>,
-    /// File with the times of images or of raw video: one line per frame, which may also name its file
+    /// File with the times of images or of raw video: one line per frame, which may also name its
+    /// file
     #[arg(long, value_name = "FILE")]
     pub(crate) timestamps: Option<PathBuf>,
     /// Unit of the times in --timestamps

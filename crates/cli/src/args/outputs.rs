@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The options of `simulate` that say what is written. The formats of pixel events as values of
-//! the command line.
+//! The options that say what a run writes: for `simulate` and `decode` alike
+//! ([`ReceiverOutputArgs`]), and for `simulate` alone ([`OutputArgs`]). The other types are the
+//! choices of these options.
 
 use clap::builder::{EnumValueParser, PossibleValue, TypedValueParser};
 use clap::error::ErrorKind;

@@ -11,10 +11,11 @@ use super::threads::ThreadArgs;
 
 /// Run the hard cases of the arithmetic, or show a design disturbed clips
 ///
-/// Without an input, prints the expected result, the observed result and the worst error of each hard case.
-/// With inputs, shows them to the design as they are, with noise, compressed, with flicker, a rising gain,
-/// saturation, shake, and as a still picture; and compares its decisions and pixels with those of an ideal
-/// camera that sees the inputs as they are. A second table shows where its flips without a disturbance come from.
+/// Without an input, prints the expected result, the observed result and the worst error of each
+/// hard case. With inputs, shows them to the design as they are, with noise, compressed, with
+/// flicker, a rising gain, saturation, shake, and as a still picture; and compares its decisions
+/// and pixels with those of an ideal camera that sees the inputs as they are. A second table shows
+/// where its flips without a disturbance come from.
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate stress --short
           foveate stress --markdown > stress.md

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The options of `view`. The options of `live`.
+//! The options of the two commands that show a camera on a page in the browser: `view` for what
+//! a camera sends ([`ViewArgs`]), and `live` for a camera that this machine computes
+//! ([`LiveArgs`]).
 
 use super::{DesignArgs, InputArgs, at_least_one};
 use crate::error::CliError;

@@ -120,8 +120,8 @@ fn disturbed_table(rows: &[DisturbanceRow], is_markdown: bool) -> String {
     figure_table(names, cells, is_markdown)
 }
 
-/// Returns a table of the sources of the design's flips. The interaction is computed from the rounded figures, so
-/// that they add up.
+/// Returns a table of the sources of the design's flips. The interaction is computed from the
+/// rounded figures, so that they add up.
 fn source_table(rows: &[ErrorSourceRow], flips: f64, is_markdown: bool) -> String {
     let mut rest = rounded_percent(flips);
     let cells = rows.iter().enumerate().map(|(number, row)| {

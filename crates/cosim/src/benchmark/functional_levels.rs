@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The levels that take whole frames: the clear model, and the engine that must give the same
-//! results. The cycle-level model of the array, which also made the recording. The timed model:
-//! no ports, but the clock of everything that comes out.
+//! The levels that are Rust in this process: the clear model ([`run_model`]), the engine
+//! ([`run_engine`]), the cycle-level model ([`run_cycle_level`]) and the timed model
+//! ([`run_transaction_level`]). All but the first are compared with it or with the recording
+//! before they are timed.
 
 use super::benchmark_report::{BenchmarkLevel, LevelMeasurement, LevelRow};
 use super::netlist_level::clock_rates;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The netlist that Yosys makes of one RPU, of one serial lane, or of a small raster core,
-//! simulated in Icarus with the first regions of the same frames. The Verilog in Verilator,
-//! over the same clocks: `-O3`, one thread, the RPU compiled once. The external programs that
-//! run some of the levels. The rates of a level with clocks.
+//! The levels that external programs simulate, clock by clock: the Verilog in Verilator
+//! ([`run_rtl`]), with `-O3`, in one thread and with the RPU compiled once, and the netlist in
+//! Icarus ([`run_netlist`]). The netlist is what Yosys makes of one RPU, of one serial lane, or
+//! of a small raster core; it gets the first regions of the same frames.
 
 use super::benchmark_report::{BenchmarkLevel, LevelMeasurement, LevelRow};
 use super::pass_timer::{PassTimer, PassTimes};

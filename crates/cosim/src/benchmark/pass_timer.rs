@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The timing of repeated passes.
+//! The time and the memory of a level that runs in this process.
 //!
-//! The memory of a level that runs in this process, as far as Linux reports it.
-//!
-//! The kernel records the largest resident size of a process, and can reset it. The memory of a
-//! level is the amount by which this size exceeds the size before the level is made. Memory that
-//! was freed before and is used again is not counted, so the figure is a lower bound.
+//! A level runs again and again until the time is long enough ([`PassTimer`]). Its memory is
+//! the amount by which the largest resident size of the process exceeds the size before the
+//! level is made ([`InitialResidentSize`]); Linux records the largest size and can reset it.
+//! Memory that was freed before and is used again is not counted, so the figure is a lower
+//! bound.
 
 use crate::error::CosimError;
 use foveate_tools::ToolError;

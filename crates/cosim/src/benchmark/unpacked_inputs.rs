@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The inputs of a recording, unpacked into memory: the inputs of the models at every clock.
-//! Frames of random pixels, on which no level can skip work.
+//! The data that all levels of a benchmark get: random frames, on which no level can skip work
+//! ([`random_frames`]), and the inputs at every clock of a recording of them, unpacked into
+//! memory ([`UnpackedInputs`]).
 
 use crate::error::CosimError;
 use crate::layout::{RecordField, RecordLayout};

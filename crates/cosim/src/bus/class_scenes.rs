@@ -117,8 +117,8 @@ impl<'a> SceneBuilder<'a> {
         traffic.send_frame(banks.frame(self.frame_source().noise_frame()));
         traffic.send_frame(banks.frame(self.frame_source().noise_frame()));
         traffic.drain();
-        // A reset clears the address. A reset at the edge after the write of a commit cancels it; at
-        // the next edge the commit waits for its end.
+        // A reset clears the address. A reset at the edge after the write of a commit cancels it;
+        // at the next edge the commit waits for its end.
         let address = self.address("zone_address");
         for waits in [1, 0] {
             traffic.write(address, 1);
@@ -141,8 +141,8 @@ impl<'a> SceneBuilder<'a> {
         traffic.send_frame(banks.frame(self.frame_source().noise_frame()));
     }
 
-    /// Commits at every clock at which a write can start, while frames begin and pass, and while a restart
-    /// waits for their end.
+    /// Commits at every clock at which a write can start, while frames begin and pass, and while a
+    /// restart waits for their end.
     fn class_maps_by_turns(&mut self, mut banks: ClassBanks) -> Traffic<'a> {
         let mut traffic = self.waiting_traffic();
         let map = self.random_map();
@@ -151,7 +151,8 @@ impl<'a> SceneBuilder<'a> {
         banks.other = map;
         let commits = self.address("zone_control");
         traffic.clear_repeatedly(commits, 1);
-        // Where an array waits for the sink, the first word of a frame follows long after its beginning.
+        // Where an array waits for the sink, the first word of a frame follows long after its
+        // beginning.
         traffic.allow_drops();
         let last_line = self.design().height() - 1;
         for turn in 0..FREE_FRAMES {

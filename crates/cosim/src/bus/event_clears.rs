@@ -109,8 +109,8 @@ impl<'a> SceneBuilder<'a> {
         traffic.send_beat(false, true, &words[0]);
     }
 
-    /// Sends frames that end after their first line, or within a single line, because the next frame
-    /// begins.
+    /// Sends frames that end after their first line, or within a single line, because the next
+    /// frame begins.
     fn early_frames(&mut self, traffic: &mut Traffic<'a>) {
         self.begin_clearing(traffic, "sof_early", true);
         let height = self.design().height();

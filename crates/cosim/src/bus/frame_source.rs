@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Frames for the buses: regions that become active, are held, and are irrelevant in turn,
-//! frames of noise, in which most regions are active, and frames in which as many as possible
-//! are active. Damaged frames, and the frames that the core must make of them, from the table
-//! of `docs/axi.md`.
+//! The frames that a core on AXI gets. Whole frames ([`BusFrameSource`]) have regions that
+//! become active, are held, and are irrelevant in turn, or noise all over, or as many active
+//! regions as possible. Frames can be damaged in each way of the table of `docs/axi.md`
+//! ([`VideoDamage`]), which also says what the core must make of them.
 
 use super::traffic::{Traffic, rows};
 use crate::stimulus::StimulusPattern::{self, *};

@@ -200,7 +200,8 @@ impl BusJob {
         })
     }
 
-    /// Returns the core with other thresholds, and of each the class whose regions show that they differ.
+    /// Returns the core with other thresholds, and of each the class whose regions show that they
+    /// differ.
     fn other_designs(&self) -> (Vec<RegionClass>, Vec<Design>) {
         let others = other_threshold_designs(&self.design);
         let others = others.into_iter().map(|other| (RegionClass::Normal, other));

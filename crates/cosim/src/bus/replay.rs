@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The replay folder of a failing run on the buses. The recorded activity on the ports of a
-//! core, read from the lines that the program prints. The first difference on the buses, as a
-//! mismatch.
+//! What a run on the buses leaves: the activity on the ports of a core ([`BusRecord`]), read
+//! from the lines that the program prints, and, if the run fails, the first difference
+//! ([`BusMismatch`]) and a folder that reproduces it ([`BusReplay`]).
 
 use crate::error::CosimError;
 use crate::harness::render;

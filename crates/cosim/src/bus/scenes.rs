@@ -26,7 +26,8 @@ const MAX_RESET_DELAY: u64 = 14;
 
 pub(super) type BusScene<'a> = (&'static str, Traffic<'a>);
 
-/// The registers of a core with other thresholds, and the class whose regions show that they differ.
+/// The registers of a core with other thresholds, and the class whose regions show that they
+/// differ.
 pub(super) struct OtherThresholds {
     pub(super) class: RegionClass,
     pub(super) registers: Vec<Register>,
@@ -329,8 +330,8 @@ impl<'a> SceneBuilder<'a> {
         traffic
     }
 
-    /// Sends frames of noise, and within each frame writes the thresholds of the next: those that are
-    /// for regions of a class. The frames have the map of classes of `maps`.
+    /// Sends frames of noise, and within each frame writes the thresholds of the next: those that
+    /// are for regions of a class. The frames have the map of classes of `maps`.
     pub(super) fn send_threshold_sweep(
         &mut self,
         traffic: &mut Traffic<'a>,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Thresholds that are written while frames come: other values for each of them, and sequences
-//! in which each decides. One threshold of a design: its register, its value in a
-//! configuration, and its copy to another.
+//! The choice of thresholds that are written while frames come: each value must show whether
+//! the core has taken it over, so each threshold decides once ([`threshold_sweep`]). A
+//! [`ThresholdKey`] is one threshold of a design: its register, its value in a configuration,
+//! and its copy to another.
 
 use foveate_camera::{
     Camera, Decimal, FeatureKind, KeenConfig, KeenSpatialConfig, RegionClass, VoteCombination,
@@ -52,8 +53,8 @@ fn with_level(design: &Design, level: u32) -> Design {
 }
 
 /// Returns thresholds of a class for a sequence of noise frames whose regions have that class, one
-/// set for each frame. Every threshold decides once: it alone differs from the thresholds of the frame
-/// before, and all decisions depend on it.
+/// set for each frame. Every threshold decides once: it alone differs from the thresholds of the
+/// frame before, and all decisions depend on it.
 pub(super) fn threshold_sweep(design: &Design, class: RegionClass) -> Vec<Design> {
     match design.threshold_source() {
         ThresholdSource::Constant => return Vec::new(),
@@ -262,7 +263,8 @@ impl ThresholdKey {
         }
     }
 
-    /// Returns the value of the threshold, which is that of the camera if its class does not set it.
+    /// Returns the value of the threshold, which is that of the camera if its class does not set
+    /// it.
     fn value(self, config: &DesignConfig) -> Option<Decimal> {
         let own = match (self.class, &config.camera.zones) {
             (RegionClass::Keen, Some(zones)) => self.kind.keen_value(config, &zones.keen),
@@ -350,8 +352,8 @@ fn whole(value: u32) -> Decimal {
     Decimal::from_whole(value.into())
 }
 
-/// Writes the thresholds that classes have in `design` into `config`, so that they do not follow those
-/// of the camera.
+/// Writes the thresholds that classes have in `design` into `config`, so that they do not follow
+/// those of the camera.
 pub(super) fn keep_class_thresholds(design: &Design, config: &mut DesignConfig) {
     let own = design.config();
     let keys = ThresholdKey::all_of(design).into_iter();

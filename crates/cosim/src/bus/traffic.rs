@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The traffic on the buses of a core, in order, with the results that it must have. The C++
-//! program that drives the buses of the model that Verilator makes of the Verilog.
+//! The traffic on the buses of a core, in order, with the results that it must have
+//! ([`Traffic`]). It is text for a C++ program ([`program`]), which drives the buses of the
+//! model that Verilator makes of the Verilog.
 
 use crate::harness::render;
 use askama::Template;
@@ -296,8 +297,8 @@ impl<'a> Traffic<'a> {
         self.send_frame_around_each(sent, [at], inside);
     }
 
-    /// Sends a whole frame, and calls `inside` before each of the given lines, but behind the second
-    /// transfer. When the core has taken the second one, the frame has begun.
+    /// Sends a whole frame, and calls `inside` before each of the given lines, but behind the
+    /// second transfer. When the core has taken the second one, the frame has begun.
     pub(super) fn send_frame_around_each<const COUNT: usize>(
         &mut self,
         sent: ExpectedFrame,

@@ -2,9 +2,9 @@
 //! The timing diagram of a core: the ports of the cycle-level model during a frame, as WaveDrom
 //! source and as a drawing.
 //!
-//! [`trace`] plays frames to the model and keeps every clock. It leaves out the
-//! clocks in which nothing begins or ends, and [`svg`] writes the others as WaveJSON and as
-//! SVG. No number is written by hand, so the diagram agrees with the model.
+//! [`trace`] plays frames to the model, keeps every clock, and leaves out of the diagram the
+//! clocks in which nothing begins or ends. [`svg`] writes the others as WaveJSON and as SVG. No
+//! number is written by hand, so the diagram agrees with the model.
 
 mod svg;
 mod trace;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A diagram drawn as SVG: lines, boxes with numbers, and gaps. A diagram in the format of
-//! WaveDrom: a row of characters for each signal, and numbers for some of them.
+//! The formats of a timing diagram: that of WaveDrom ([`WaveDiagram`]), which has a row of
+//! characters for each signal and numbers for some of them, and the SVG that is drawn of it
+//! ([`draw_svg`]).
 
 use super::trace::{DiagramColumn, PortTrace};
 use serde::Serialize;

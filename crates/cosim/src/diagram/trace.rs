@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The ports of the model during a frame and after it, clock by clock. The choice of the clocks
-//! that a diagram shows: those around a change of a line.
+//! The clocks that a timing diagram shows. The model is played during a frame and after it,
+//! clock by clock ([`PortTrace`]), and the clocks around the changes of a line become columns
+//! ([`columns`]).
 
 use crate::error::CosimError;
 use crate::layout::RecordLayout;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A module with the values of its parameters. An instance in the top of an elaborated array,
-//! and the connections of its ports.
+//! What an elaboration shows of a design: modules with the values of their parameters
+//! ([`ModuleVariant`]), and instances with the connections of their ports ([`ArrayInstance`]).
 
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};

@@ -13,8 +13,8 @@ pub(crate) struct NetActivity {
     pub(crate) clocks: f64,
     /// The changes of each net.
     pub(crate) nets: Vec<[f64; 2]>,
-    /// For each energy of each pin of each gate, the number of changes of the pin under its condition. A
-    /// change of an output counts only if a related input changes at the same clock.
+    /// For each energy of each pin of each gate, the number of changes of the pin under its
+    /// condition. A change of an output counts only if a related input changes at the same clock.
     pub(crate) energies: Vec<Vec<Vec<[f64; 2]>>>,
 }
 
@@ -103,9 +103,9 @@ impl<'a> ActivityCounter<'a> {
         counter
     }
 
-    /// Counts the changes from one clock to the next, in the simulations whose bit in `counted` is 1.
-    /// `before` are the values of the nets at the clock before. It is called at every clock, also if no
-    /// simulation is counted.
+    /// Counts the changes from one clock to the next, in the simulations whose bit in `counted`
+    /// is 1. `before` are the values of the nets at the clock before. It is called at every clock,
+    /// also if no simulation is counted.
     pub(crate) fn count(&mut self, simulation: &GateSimulation<'_>, before: &[u64], counted: u64) {
         if counted == 0 {
             self.knows_conditions = false;
@@ -188,8 +188,8 @@ impl CountedPin<'_> {
     }
 }
 
-/// Returns the simulations that meet the condition of an energy. Without one, these are all that meet no
-/// condition of the other energies of the same related pins, which are in `all`.
+/// Returns the simulations that meet the condition of an energy. Without one, these are all that
+/// meet no condition of the other energies of the same related pins, which are in `all`.
 fn condition_of(
     energy: &InternalEnergy,
     all: &[InternalEnergy],

@@ -43,7 +43,8 @@ pub struct EnergyJob {
 }
 
 impl EnergyJob {
-    /// Plays the clip of an input to a design, which takes the size of the clip; see [`EnergyJob::record`].
+    /// Plays the clip of an input to a design, which takes the size of the clip; see
+    /// [`EnergyJob::record`].
     ///
     /// # Errors
     /// Fails if the input is not one clip that can be read twice, or as [`EnergyJob::record`] does.
@@ -66,12 +67,12 @@ impl EnergyJob {
         Ok(Self { name: input.display().to_string(), ..job })
     }
 
-    /// Plays a clip to a design of its size, finds the stretches to measure, and records what units take and
-    /// what the model makes of it. Powers are for `frame_rate` frames per second.
+    /// Plays a clip to a design of its size, finds the stretches to measure, and records what units
+    /// take and what the model makes of it. Powers are for `frame_rate` frames per second.
     ///
     /// # Errors
-    /// Fails if the clip cannot be read, is not complete, is too short or does not fit, for organization
-    /// `raster`, if there is no room for the vectors, or if `cancel` was set.
+    /// Fails if the clip cannot be read, is not complete, is too short or does not fit, for
+    /// organization `raster`, if there is no room for the vectors, or if `cancel` was set.
     pub fn record(
         clip: &ActivityClip<'_>,
         design: &Design,
@@ -102,8 +103,8 @@ impl EnergyJob {
     }
 }
 
-/// Measures the energy of the design of a job. `silicon` is its report on area, and `clock_mhz` the clock
-/// of a design whose clock runs always.
+/// Measures the energy of the design of a job. `silicon` is its report on area, and `clock_mhz` the
+/// clock of a design whose clock runs always.
 ///
 /// # Errors
 /// Fails if Yosys fails, if a table is missing in the library, or if the
@@ -160,8 +161,8 @@ fn check_organization(organization: Organization) -> Result<(), EnergyError> {
     }
 }
 
-/// Returns the number of frames that a unit is behind the frame that it takes. An RPU scores pixels as they
-/// come, and a lane works on a frame while it takes the next one.
+/// Returns the number of frames that a unit is behind the frame that it takes. An RPU scores pixels
+/// as they come, and a lane works on a frame while it takes the next one.
 fn delay_of_work(design: &Design) -> u64 {
     match design.organization() {
         Organization::Serial => 1,
@@ -169,7 +170,8 @@ fn delay_of_work(design: &Design) -> u64 {
     }
 }
 
-/// Returns the ratio of the flip-flops that the units of the array share to those of an array of one unit.
+/// Returns the ratio of the flip-flops that the units of the array share to those of an array of
+/// one unit.
 fn shared_growth(netlist: &SimulatedNetlist<'_>, silicon: &SiliconReport) -> f64 {
     let is_shared = |gate: &&usize| !netlist.gates[**gate].is_in_unit;
     let own = netlist.flip_flops.iter().filter(is_shared).count().max(1);
@@ -182,8 +184,8 @@ struct ArrayEnergies<'a> {
     silicon: &'a SiliconReport,
     frame_rate: f64,
     clock_mhz: f64,
-    /// The ratio of the flip-flops that all units share to those of an array of one unit. The energy of the
-    /// shared logic is taken to grow as their number does.
+    /// The ratio of the flip-flops that all units share to those of an array of one unit. The
+    /// energy of the shared logic is taken to grow as their number does.
     shared_growth: f64,
     default: EnergySum,
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The energy of an activity: the sum over all pins of the energies that the library gives for
-//! their changes, and of those that charge the inputs at each net. The loads and transition
-//! times of nets.
+//! The energy of an activity ([`EnergySum`]): the sum over all pins of the energies that the
+//! library gives for their changes, and of those that charge the inputs at each net. Both
+//! depend on the loads and the transition times of nets ([`NetElectrics`]).
 
 use crate::energy::activity::NetActivity;
 use crate::energy::simulated_netlist::{SimulatedGate, SimulatedNetlist};
@@ -81,8 +81,8 @@ impl EnergySum {
                     }
                     false => input_energy(pin, &energies[at], electrics.slews[net]),
                 };
-                // Each change of a net takes or loses half of the energy of the charge of its inputs.
-                // No gate drives the clock, which has two changes in a clock.
+                // Each change of a net takes or loses half of the energy of the charge of its
+                // inputs. No gate drives the clock, which has two changes in a clock.
                 let changes = match (is_clock, netlist.is_driven[net]) {
                     (true, _) => 2.0 * activity.clocks,
                     (false, true) => activity.nets[net].iter().sum(),
@@ -114,8 +114,9 @@ fn input_energy(pin: &CellPin, counts: &[[f64; 2]], slews: [f64; 2]) -> f64 {
     energies.map(|own| of_edge(own, 0) + of_edge(own, 1)).sum()
 }
 
-/// Returns the energy of all changes of an output, in the unit of the library. `counts` are the changes
-/// that belong to each energy, and `changes` all changes of the net. `each` returns an energy for an edge.
+/// Returns the energy of all changes of an output, in the unit of the library. `counts` are the
+/// changes that belong to each energy, and `changes` all changes of the net. `each` returns an
+/// energy for an edge.
 fn output_energy(
     pin: &CellPin,
     counts: &[[f64; 2]],
@@ -137,8 +138,8 @@ fn output_energy(
     sum
 }
 
-/// Returns the transition time of the input that makes an output change. A fall of an input may make the
-/// output rise, so the mean of both edges stands for each.
+/// Returns the transition time of the input that makes an output change. A fall of an input may
+/// make the output rise, so the mean of both edges stands for each.
 fn input_slew(gate: &SimulatedGate<'_>, energy: &InternalEnergy, electrics: &NetElectrics) -> f64 {
     let input = energy.related_pins.first();
     input.map_or(0.0, |&pin| electrics.slews[gate.nets[pin]].iter().sum::<f64>() / 2.0)
@@ -148,8 +149,8 @@ fn input_slew(gate: &SimulatedGate<'_>, energy: &InternalEnergy, electrics: &Net
 pub(crate) struct NetElectrics {
     /// The sum of the capacitances of the inputs at a net.
     pub(crate) loads: Vec<f64>,
-    /// The times of a rise and of a fall, the longest of all ways to the net. Ports of the netlist and the
-    /// clock have a time of 0, as in OpenSTA.
+    /// The times of a rise and of a fall, the longest of all ways to the net. Ports of the netlist
+    /// and the clock have a time of 0, as in OpenSTA.
     pub(crate) slews: Vec<[f64; 2]>,
 }
 
@@ -250,8 +251,8 @@ mod tests {
         assert_eq!(sum, expected);
     }
 
-    /// OpenSTA of 2019 takes the energies of a rise and of a fall for each change of a pin, which is
-    /// twice as much; it leaves the charge of the clock out. All else is as here.
+    /// OpenSTA of 2019 takes the energies of a rise and of a fall for each change of a pin, which
+    /// is twice as much; it leaves the charge of the clock out. All else is as here.
     #[test]
     fn an_independent_tool_agrees_within_two_percent() {
         if !require_tools(&[Tool::OpenSta]) || !has_library() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The report on the energy of a design. Renders the report as text for a terminal and as
+//! The report on the energy of a design ([`EnergyReport`]), with its text for a terminal and as
 //! Markdown.
 
 pub use crate::energy::energy_sum::PartEnergies;
@@ -27,8 +27,8 @@ pub struct EnergyReport {
     pub simulated_units: u64,
     /// The number of regions.
     pub regions: u64,
-    /// The number of cells that RPUs share. Their energy is in no figure. It is 0 for lanes, because the
-    /// energy of the cells that they share is in all figures.
+    /// The number of cells that RPUs share. Their energy is in no figure. It is 0 for lanes,
+    /// because the energy of the cells that they share is in all figures.
     pub unmeasured_cells: u64,
     /// The frames per second for which powers are given.
     pub frame_rate: f64,
@@ -55,15 +55,16 @@ pub struct StretchEnergy {
     pub clocks_per_frame: f64,
     /// The energy of one unit in a clock, in picojoules.
     pub unit_pj_per_clock: PartEnergies,
-    /// The energy of a region in a frame, in nanojoules, with its share of the logic that units share.
+    /// The energy of a region in a frame, in nanojoules, with its share of the logic that units
+    /// share.
     pub region_nj_per_frame: PartEnergies,
     /// The power of the array in milliwatts if the clock stops when a frame is done.
     pub stopped_clock_mw: f64,
-    /// The power of the array in milliwatts if the clock runs always; `None` if the clock is too slow for
-    /// the frames.
+    /// The power of the array in milliwatts if the clock runs always; `None` if the clock is too
+    /// slow for the frames.
     pub running_clock_mw: Option<f64>,
-    /// The energy of one unit in a clock, in picojoules, if every net changed at every tenth clock, which
-    /// tools assume without a measured activity.
+    /// The energy of one unit in a clock, in picojoules, if every net changed at every tenth clock,
+    /// which tools assume without a measured activity.
     pub default_activity_pj_per_clock: f64,
 }
 

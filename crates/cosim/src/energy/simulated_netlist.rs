@@ -63,7 +63,8 @@ impl<'a> SimulatedNetlist<'a> {
     /// Connects the gates.
     ///
     /// # Errors
-    /// Fails if an input is not connected, or if gates without a flip-flop between them form a loop.
+    /// Fails if an input is not connected, or if gates without a flip-flop between them form a
+    /// loop.
     pub(crate) fn new(
         netlist: &'a FlatNetlist,
         models: &'a CellModels,
@@ -132,8 +133,8 @@ impl<'a> SimulatedNetlist<'a> {
     }
 }
 
-/// Returns the combinational gates, each behind those that drive its inputs. `readers` are the gates that
-/// read each net.
+/// Returns the combinational gates, each behind those that drive its inputs. `readers` are the
+/// gates that read each net.
 fn evaluation_order(
     gates: &[SimulatedGate<'_>],
     combinational: &[usize],

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The stretches of a clip whose activity is measured: a quiet one, a usual one and the busiest one.
+//! The stretches of a clip whose activity is measured: a quiet one, a usual one and the busiest
+//! one.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -13,10 +14,11 @@ use foveate_pixels::Frame;
 
 use crate::energy::error::EnergyError;
 
-/// The frames before a stretch, after which an RPU has a reference and no longer sends the first frame.
+/// The frames before a stretch, after which an RPU has a reference and no longer sends the first
+/// frame.
 pub(crate) const FRAMES_BEFORE: u64 = 2;
-/// The frames behind a stretch. A lane works on a frame while it takes the next one, so the clocks of the
-/// last frame end with the first of them.
+/// The frames behind a stretch. A lane works on a frame while it takes the next one, so the clocks
+/// of the last frame end with the first of them.
 pub(crate) const FRAMES_BEHIND: u64 = 2;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -43,7 +45,8 @@ pub struct ActivityClip<'a> {
     pub clips: &'a RunClips,
     /// The number of the clip among them.
     pub clip: usize,
-    /// The numbers of the frames whose activity counts. The camera sees the frames before them, too.
+    /// The numbers of the frames whose activity counts. The camera sees the frames before them,
+    /// too.
     pub frames: Range<u64>,
 }
 
@@ -108,8 +111,8 @@ impl ActivityClip<'_> {
         }
     }
 
-    /// Shows the clip to the camera of a design. Returns the number of frames whose activity counts, and the
-    /// stretches to measure, of `length` frames or as many as there are.
+    /// Shows the clip to the camera of a design. Returns the number of frames whose activity
+    /// counts, and the stretches to measure, of `length` frames or as many as there are.
     pub(crate) fn stretches(
         &self,
         design: &Design,
@@ -154,8 +157,8 @@ impl ActivityClip<'_> {
     }
 }
 
-/// Chooses a quiet, a usual and the busiest stretch by the number of regions that each frame sent. There are at
-/// least [`ActivityClip::MIN_FRAMES`] frames.
+/// Chooses a quiet, a usual and the busiest stretch by the number of regions that each frame sent.
+/// There are at least [`ActivityClip::MIN_FRAMES`] frames.
 fn choose_stretches(sent: &[u64], regions: u64, length: u64) -> Vec<ClipStretch> {
     let found = sent.len() as u64;
     let frames = (found - FRAMES_BEFORE - FRAMES_BEHIND).min(length);

@@ -45,8 +45,8 @@ pub(crate) fn flat_netlist(gates: &str) -> FlatNetlist {
 }
 
 /// Returns a library of an inverter and a flip-flop, in which no energy depends on times and loads.
-/// The texts are added to the pin of the clock and to the output of the inverter. `DFFC` is a flip-flop that
-/// R clears.
+/// The texts are added to the pin of the clock and to the output of the inverter. `DFFC` is a
+/// flip-flop that R clears.
 pub(crate) fn tiny_library(at_clock: &str, at_output: &str) -> LibertyLibrary {
     let energy = |related: &str, rise: &str, fall: &str| {
         format!(

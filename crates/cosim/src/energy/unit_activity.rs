@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The activity of a unit that takes the vectors of a recording, whose outputs are compared with those
-//! of the model.
+//! The activity of a unit that takes the vectors of a recording, whose outputs are compared with
+//! those of the model.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -27,8 +27,8 @@ struct UnitSequence {
     counted: Range<usize>,
 }
 
-/// Simulates all sequences of a recording, and counts the activity in these frames of each. Stops with an
-/// error as soon as `cancel` is set.
+/// Simulates all sequences of a recording, and counts the activity in these frames of each. Stops
+/// with an error as soon as `cancel` is set.
 pub(crate) fn unit_activity(
     netlist: &SimulatedNetlist<'_>,
     recording: &Recording,
@@ -152,8 +152,8 @@ impl RecordedUnit<'_> {
         }
     }
 
-    /// Returns the recorded values of a bit, one sequence per bit of the result. A sequence that has
-    /// ended keeps its last value.
+    /// Returns the recorded values of a bit, one sequence per bit of the result. A sequence that
+    /// has ended keeps its last value.
     fn lanes_of_bit(
         &self,
         records: &[u8],

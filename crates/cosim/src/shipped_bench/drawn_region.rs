@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The pictures that a region of a bench shows in turn, and the thresholds under which they
-//! lead to all kinds of decisions. The places of a frame at which regions of a bench have
-//! structure, and the ground elsewhere. The part of a core that its bench simulates: the same
-//! Verilog with other parameters.
+//! What the bench of a core shows to it, chosen so that all kinds of decisions occur in few
+//! clocks: the part of the core that is simulated ([`bench_design`]), the places of a frame
+//! that have structure ([`DrawnPlaces`]), and the pictures of a region in turn
+//! ([`DrawnRegion`]) with the thresholds under which they lead to these decisions
+//! ([`ThresholdPair`]).
 
 use crate::error::CosimError;
 use crate::level::CosimLevel;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The player of a script: it offers the frames to the cycle-level model, and records the
-//! result. The vectors of a bench while they are recorded: packed into text, and counted.
+//! The player of a script ([`ScriptPlayer`]): it offers the frames to the cycle-level model,
+//! and its clocks become the vectors of the bench, packed into text and counted
+//! ([`VectorRecorder`]).
 
 use super::script::{BenchFrame, BenchScript, BenchSequence, MIN_FRAMES_PER_SCRIPT};
 use super::tally::{TallyCounter, VectorTally};

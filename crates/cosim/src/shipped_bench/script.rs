@@ -374,8 +374,8 @@ impl<'a> ScriptWriter<'a> {
         BenchSequence::drained(frames.into())
     }
 
-    /// Returns thresholds under which the pictures of regions are relevant. With `flow` that depends
-    /// on the picture before, unless every score meets the minimum.
+    /// Returns thresholds under which the pictures of regions are relevant. With `flow` that
+    /// depends on the picture before, unless every score meets the minimum.
     fn relevant_thresholds(&self) -> ThresholdInputs {
         let usual = self.pair.usual;
         match (self.part.displacement_feature(), self.part.threshold_source()) {

@@ -46,7 +46,8 @@ pub(crate) struct BusSituationCounts {
     pub(crate) behind_skipped: u64,
     /// The number of frames whose map of classes was written.
     pub(crate) maps: u64,
-    /// The number of frames with another map than the frame before, while the core commits all the time.
+    /// The number of frames with another map than the frame before, while the core commits all the
+    /// time.
     pub(crate) maps_by_turns: u64,
     /// The number of FRAME packets that left after a version behind theirs was read.
     pub(crate) frames_behind_commit: u64,

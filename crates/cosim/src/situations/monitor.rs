@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A monitor of the ports of an array or unit, which counts situations clock by clock. The
-//! places of the pixel port that carry a pixel of the frame.
+//! A monitor of the ports of an array or unit, which counts situations clock by clock
+//! ([`SituationMonitor`]). It looks only at places of the pixel port that carry a pixel of the
+//! frame ([`has_pixel`]).
 
 use super::occurrence::Occurrences;
 use super::port_situations::{PortSituationCounts, flushed_windows};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The history of every region, from its decisions and its losses. The activity on the ports of
-//! classes of regions: the classes of a frame in a pipelined array, and the words and commits
-//! of a map in the other organizations.
+//! What the monitor remembers from clock to clock, as a situation is often a sequence: the
+//! history of every region, from its decisions and its losses ([`RegionTraces`]), and the
+//! classes of regions with the map that waits ([`ClassActivity`]).
 
 use super::port_situations::PortSituationCounts;
 use super::watched_ports::{WatchedClock, WatchedPorts};

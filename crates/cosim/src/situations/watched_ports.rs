@@ -28,7 +28,8 @@ pub(super) struct WatchedPort {
     is_output: bool,
 }
 
-/// The places of all watched ports. They are found once, because a recording has millions of clocks.
+/// The places of all watched ports. They are found once, because a recording has millions of
+/// clocks.
 #[derive(Clone, Debug)]
 pub(super) struct WatchedPorts {
     pub(super) any_score: WatchedPort,

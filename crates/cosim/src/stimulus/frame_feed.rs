@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The order in which the pixel port takes a frame. The damage of frames for hardware that
-//! synchronizes to the start of a frame. The caller's frames, cut to the parts that the
-//! simulated hardware sees. The pauses between pixels and between frames.
+//! The way of the caller's frames to the pixel port. They are cut to the parts that the
+//! simulated hardware sees ([`FramePart`]), put into the order of the port ([`FrameFeed`]),
+//! perhaps damaged, for hardware that synchronizes to the start of a frame ([`FrameDelivery`]),
+//! and sent with pauses between pixels and between frames ([`GapPattern`]).
 
 use self::BeatCount::{AllButOne, One, Some as Many};
 use self::FrameDelivery::{Long, Restarted, Short, Strays, Twice, Unmarked, Whole};
@@ -257,8 +258,8 @@ impl FramePart {
     }
 
     /// Returns the parts that are simulated. An array has one part. A lone unit has as many parts,
-    /// evenly spread over the frames of the `whole` design, as are affordable for `frames` frames, and
-    /// `most` at most. Without that limit, each region has an RPU.
+    /// evenly spread over the frames of the `whole` design, as are affordable for `frames` frames,
+    /// and `most` at most. Without that limit, each region has an RPU.
     pub(super) fn all_of(
         whole: &Design,
         simulated: &Design,

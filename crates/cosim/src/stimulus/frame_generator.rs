@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whole frames of patterns, with one drawing state for every region. The prediction of the
-//! clocks at which a pipelined array decides, so that minima and the summary level can be aimed
-//! at these clocks.
+//! Whole frames of patterns, with one drawing state for every region ([`FrameGenerator`]). For
+//! thresholds that are aimed at these frames, a [`DecisionPredictor`] knows the clocks at which
+//! a pipelined array decides, and the scores that it decides on.
 
 use super::frame_feed::FrameFeed;
 use super::stimulus_pattern::{PatternGenerator, StimulusPattern};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The driver of the ports of a model: it offers frames clock by clock, simulates what
-//! surrounds the core, and hands every clock to a receiver. The receiver of the clocks that a
-//! driver simulates. The time until all pixels of a frame have left.
+//! The driver of the ports of a model ([`ModelDriver`]): it offers frames clock by clock,
+//! simulates what surrounds the core, waits until all pixels of a frame have left
+//! ([`DrainTiming`]), and hands every clock to a [`ClockReceiver`].
 
 use super::frame_feed::{FrameDelivery, FrameFeed, GapPattern};
 use super::frame_generator::PatternAim;

@@ -68,8 +68,8 @@ impl<'a> PortThresholds<'a> {
         self.turn = 0;
     }
 
-    /// Returns the number of clocks that the next frame must wait until the classes of the sequence are
-    /// in the core, which are written from the next clock on.
+    /// Returns the number of clocks that the next frame must wait until the classes of the sequence
+    /// are in the core, which are written from the next clock on.
     pub(super) fn load_classes(&mut self) -> u64 {
         self.zones.as_mut().map_or(0, |zones| zones.load_clocks() as u64)
     }

@@ -95,8 +95,8 @@ impl PortZones {
         })
     }
 
-    /// Begins a clock. A pipelined core takes a class only at the first step of a frame, and a memory
-    /// of classes keeps frames from half a map, so the inputs may change at any clock.
+    /// Begins a clock. A pipelined core takes a class only at the first step of a frame, and a
+    /// memory of classes keeps frames from half a map, so the inputs may change at any clock.
     pub(super) fn begin_clock(&mut self, random: &mut Random) {
         if let Some(memory) = &mut self.memory {
             memory.begin_clock(self.changes, random);
@@ -137,7 +137,8 @@ impl ClassMemoryWriter {
         match choice {
             ClassChoice::Changing => self.held = [None; 2],
             ClassChoice::Normal | ClassChoice::Configured => {
-                // The second bank is committed before the first write, so that its first map is used.
+                // The second bank is committed before the first write, so that its first map is
+                // used.
                 if std::mem::take(&mut self.is_new) {
                     self.plan_commit(&[]);
                 }
@@ -150,8 +151,8 @@ impl ClassMemoryWriter {
         }
     }
 
-    /// Plans the writes of a map word by word, and its commit, one clock after the other. At the last clock
-    /// nothing is written, so that the next frame uses the map.
+    /// Plans the writes of a map word by word, and its commit, one clock after the other. At the
+    /// last clock nothing is written, so that the next frame uses the map.
     fn plan_commit(&mut self, classes: &[RegionClass]) {
         self.held.swap(0, 1);
         let words = classes.chunks(CLASSES_PER_WORD as usize).map(class_word);

@@ -173,8 +173,8 @@ impl<'a> StimulusSession<'a> {
         }
     }
 
-    /// Draws the next frame of a directed sequence. Noise that must be relevant is drawn again while
-    /// no region of the frame is.
+    /// Draws the next frame of a directed sequence. Noise that must be relevant is drawn again
+    /// while no region of the frame is.
     fn draw_frame(&mut self, sequence: &FrameSequence, turn: usize) -> Result<Frame, CosimError> {
         let (FrameSequence { patterns, is_mixed, .. }, aim) =
             (*sequence, self.driver.pattern_aim());

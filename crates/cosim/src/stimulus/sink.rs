@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The sink that takes the pixels that leave a core, and the clocks at which it is ready. An
-//! external frame store: it returns in the next frame the words that the core stores. It may
-//! lack the word that the core asks for, or return a wrong one.
+//! The surroundings of a core at its outputs: the sink that takes its pixels, and is ready at
+//! some clocks only ([`Sink`]), and an external frame store, which returns in the next frame
+//! the words that the core stores ([`ExternalStore`]). The store may lack the word that the
+//! core asks for, or return a wrong one.
 
 use super::unused_inputs::{Random, UnusedInputs};
 use foveate_design::{Design, Hardware, PortRole, RasterTiming};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The contents of a region: the hard cases, each drawn into a square of pixels. The drawing of
-//! patterns, with differences and counts near the design's thresholds.
+//! The contents of a region: the hard cases ([`StimulusPattern`]), each drawn into a square of
+//! pixels with differences and counts near the design's thresholds ([`PatternGenerator`]).
 
 use super::pattern_scorer::{PatternScorer, PatternScores};
 use super::unused_inputs::Random;
@@ -76,9 +76,9 @@ pub(crate) enum Texture {
     Rows(usize),
     /// Bright squares of `.0` pixels a side, with a period of `.1` pixels.
     Dots(usize, usize),
-    /// A tile of 8x8 dark and bright pixels, repeated. In each direction of `surface`, at least 40 of
-    /// the 64 pixels of a tile differ from their neighbors if pixels repeat at the border of the tile,
-    /// and at least 36 if other tiles surround it.
+    /// A tile of 8x8 dark and bright pixels, repeated. In each direction of `surface`, at least 40
+    /// of the 64 pixels of a tile differ from their neighbors if pixels repeat at the border of the
+    /// tile, and at least 36 if other tiles surround it.
     Mosaic,
     /// A dark left half and a bright right half, which give the largest deviations.
     Halves,
@@ -260,9 +260,9 @@ impl PatternGenerator {
         self.pixels = trials.into_iter().min_by_key(distance).expect("there is a first trial");
     }
 
-    /// Draws noise until its region is relevant with the thresholds of the design, and returns true.
-    /// After many trials it returns false. The pixels of neighbors are not known, so those of the
-    /// border are repeated.
+    /// Draws noise until its region is relevant with the thresholds of the design, and returns
+    /// true. After many trials it returns false. The pixels of neighbors are not known, so those of
+    /// the border are repeated.
     pub(crate) fn draw_relevant_noise(&mut self) -> bool {
         (0..MAX_TRIALS).any(|_| {
             self.draw(StimulusPattern::Noise);

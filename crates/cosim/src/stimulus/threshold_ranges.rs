@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Thresholds that meet the data: equal to a value, one below and one above. Thresholds that
-//! are aimed at data: at a frame that is to come and the scores that one of its regions will
-//! have, or at scores that are decided at this clock.
+//! Thresholds that meet the data: equal to a value, one below and one above
+//! ([`ThresholdRanges`]). The data are those of a frame that is to come and the scores that one
+//! of its regions will have, or scores that are decided at this clock ([`ThresholdAimer`]).
 
 use super::port_zones::ClassChoice;
 use super::unused_inputs::Random;

@@ -10,14 +10,14 @@ use foveate_design::Design;
 use foveate_pixels::Frame;
 use std::sync::atomic::AtomicBool;
 
-/// Frames for an RPU of `pipelined` or a lane of `serial`. Each part of a frame that a unit takes is a
-/// sequence, which begins with a reset and has all frames without a pause.
+/// Frames for an RPU of `pipelined` or a lane of `serial`. Each part of a frame that a unit takes
+/// is a sequence, which begins with a reset and has all frames without a pause.
 #[derive(Clone, Debug)]
 pub struct UnitFrames<'a> {
     /// The frames, of the size and depth of the design.
     pub frames: &'a [Frame],
-    /// The largest number of parts, which are spread evenly over the frame. There are fewer if their
-    /// clocks are many.
+    /// The largest number of parts, which are spread evenly over the frame. There are fewer if
+    /// their clocks are many.
     pub max_parts: u64,
 }
 

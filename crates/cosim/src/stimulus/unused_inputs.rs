@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The values at input ports while they mean nothing. Random numbers that are equal for equal
-//! seeds on every machine and in every version.
+//! The values at input ports while they mean nothing ([`UnusedInputs`]), and the source of all
+//! random values of a stimulus ([`Random`]), which is equal for equal seeds on every machine
+//! and in every version.
 
 /// The choice of values that the hardware must ignore.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

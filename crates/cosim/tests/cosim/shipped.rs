@@ -158,8 +158,8 @@ fn every_design_shows_active_held_and_blank_regions() {
     assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
 }
 
-/// The relevance of regions of 2x2 pixels depends on their neighbors. Regions of more than one frame
-/// are lost, or the number of the frame would be 0 in all vectors.
+/// The relevance of regions of 2x2 pixels depends on their neighbors. Regions of more than one
+/// frame are lost, or the number of the frame would be 0 in all vectors.
 #[test]
 fn regions_that_depend_on_their_neighbors_are_lost_in_several_frames() {
     let toml = "frame = { width = 64, height = 6, pixel_bits = 1 }\n\

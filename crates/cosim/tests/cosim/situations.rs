@@ -137,8 +137,8 @@ fn vectors_of_a_single_region_reach_every_situation() {
     assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
 }
 
-/// Designs whose constant thresholds few pictures meet: noise with corners behind a median filter in
-/// regions of 4x4 pixels, and means of one bit.
+/// Designs whose constant thresholds few pictures meet: noise with corners behind a median filter
+/// in regions of 4x4 pixels, and means of one bit.
 const SELDOM_RELEVANT: &[&[&str]] = &[
     &[
         "frame={width=12,height=4,pixel_bits=4}",

@@ -38,14 +38,15 @@ pub struct RasterTiming {
     pub lookup_latency: u32,
     /// Clocks from the advance of the last word of a region in the tail to its decision, D.
     pub decision_latency: u32,
-    /// Rows of regions whose pixels are buffered, B, or 0 if the buffer is not needed. It is 3 where
-    /// a second pass reads them, or where a row is too short for the way of a region to the readout.
+    /// Rows of regions whose pixels are buffered, B, or 0 if the buffer is not needed. It is 3
+    /// where a second pass reads them, or where a row is too short for the way of a region to the
+    /// readout.
     pub buffer_rows: u32,
     /// Least number of clocks from the edge at which an active region enters the queue to the edge
     /// at which the readout holds it.
     pub queue_latency: u32,
-    /// Least number of clocks from the edge at which the readout holds a region to the edge at which
-    /// it holds the next.
+    /// Least number of clocks from the edge at which the readout holds a region to the edge at
+    /// which it holds the next.
     pub hold_interval: u32,
     /// True if the pixels of active regions leave.
     pub has_forwarding: bool,

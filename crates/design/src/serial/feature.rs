@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The steps of the pass of a feature in a serial array, and the widths of the registers that
-//! it uses.
+//! The work of a feature in a serial array: the steps of its pass ([`pass_steps`]), the widths
+//! of its registers ([`FeatureRegisterWidths`]), and its arithmetic with means.
 //!
-//! The search of `flow` in a serial array: the weights with which sums over different numbers of
-//! pixels compare like their means.
-//!
-//! The weight of a displacement d is c(d) = a^2 / n(d). Here a is the least common multiple of the
-//! numbers N, N-1, .. N-R of columns that can have a partner, so every weight is an integer.
-//!
-//! The division of the sums of blocks by their numbers of pixels: the bits of a sum that leave
-//! a lane, and the arithmetic at the ports.
+//! * [`FlowSearch`] has weights with which sums over different numbers of pixels compare like
+//!   their means. The weight of a displacement d is c(d) = a^2 / n(d). Here a is the least
+//!   common multiple of the numbers N, N-1, .. N-R of columns that can have a partner, so every
+//!   weight is an integer.
+//! * [`BlockMeanDivision`] has the bits of a sum that leave a lane, and the arithmetic at the
+//!   ports.
 
 use crate::{Design, SerialDesign};
 use foveate_camera::{Displacement, FeatureKind, Reciprocal, SpatialFeature, bits_for};

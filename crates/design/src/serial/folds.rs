@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The folds of a serial design that are fast enough, and the ones among them that may be the
-//! cheapest. The implementation of [`crate::organization`] for serial designs.
+//! The choice of the fold of a serial design: the folds that are fast enough, and the ones
+//! among them that may be the cheapest. The clocks of a fold come from the rules of the
+//! organization, whose implementation for serial designs ([`OrganizationRules`]) is here, too.
 
 use super::ports::interface;
 use super::{SerialPhase, SerialTiming};

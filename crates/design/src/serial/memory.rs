@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The memory of a lane: the areas of a slot, their addresses, and the kind of memory. The
-//! widths of the registers of a serial lane and of the sequencer.
+//! The storage of a serial lane: its memory ([`LaneMemory`]) with the areas of a slot
+//! ([`SlotArea`]), and the registers of the lane and of the sequencer ([`LaneWidths`]).
+//! [`MemoryChoice`] says why the memory is of its kind.
 
 use super::feature::{chain_bits, feature_register_widths};
 use crate::{LaneMemoryKind, PixelFeed, SerialDesign};
@@ -184,8 +185,8 @@ impl SerialDesign<'_> {
 pub struct LaneWidths {
     /// Width of the accumulator, which is signed.
     pub accumulator: u32,
-    /// Width of the second word, which holds a mean, a sum, a quotient or the largest pixel. It is at
-    /// least 2.
+    /// Width of the second word, which holds a mean, a sum, a quotient or the largest pixel. It is
+    /// at least 2.
     pub second: u32,
     /// Width of the word that travels around the ring of lanes: a score, the sum of a block, a mean
     /// or, with raster feed, a pixel.

@@ -37,8 +37,8 @@ fn config_of_feature(kind: FeatureKind) -> String {
     format!("{feature}[hardware]\norganization = \"serial\"\n")
 }
 
-/// Returns the depths at which the defaults are valid. The default mean of `segment` has no fraction
-/// bits, and pixels of 1 bit need one.
+/// Returns the depths at which the defaults are valid. The default mean of `segment` has no
+/// fraction bits, and pixels of 1 bit need one.
 fn valid_depths(text: &str) -> RangeInclusive<u32> {
     if text.contains("segment") { 2..=16 } else { 1..=16 }
 }
@@ -219,8 +219,8 @@ fn what_no_pixel_can_reach_is_refused_with_the_value_to_use() {
     }
 }
 
-/// A region has pixels above and pixels below its mean by more than a level only if the level is less
-/// than half of the range of pixels. With the largest valid level such a region exists.
+/// A region has pixels above and pixels below its mean by more than a level only if the level is
+/// less than half of the range of pixels. With the largest valid level such a region exists.
 #[test]
 fn the_level_of_segment_leaves_room_on_both_sides_of_the_mean() {
     let range = |level: u32, bits: u32, fraction: u32| {

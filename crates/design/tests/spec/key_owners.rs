@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Tests of keys that belong to one organization, to some features or to one rendering of irrelevant
-//! regions, as `docs/configuration.md` states. All others refuse such a key, whatever its value. A
-//! key without an owner is accepted by all organizations.
+//! Tests of keys that belong to one organization, to some features or to one rendering of
+//! irrelevant regions, as `docs/configuration.md` states. All others refuse such a key, whatever
+//! its value. A key without an owner is accepted by all organizations.
 
 use std::collections::BTreeMap;
 

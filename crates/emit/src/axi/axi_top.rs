@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Fills `axi.v`, the top of a core on AXI. Finds the ports of a core on AXI, for the module in
-//! which the core is placed. Only the filled template `axi.v` declares them, so they are read
-//! from its header. The registers of an array of RPUs on a board (docs/boards.md): a table like
-//! that of a core on AXI, and the files made from it.
+//! The outside of a core: the ports of one on AXI, and the registers of an array of RPUs on a
+//! board (docs/boards.md). The ports are declared only in the filled template `axi.v`
+//! ([`view`]), so they are read from its header ([`header_ports`]). The registers form a table
+//! like that of a core on AXI ([`array_table`]), from which a module and the files for software
+//! are made.
 
 use super::registers::{
     FieldKind, Register, RegisterField, common_registers, field, fingerprint_number,

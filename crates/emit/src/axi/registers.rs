@@ -264,8 +264,8 @@ pub fn axi_registers(design: RasterDesign<'_>) -> Vec<Register> {
     list
 }
 
-/// Returns the registers of the memory of classes: a window of words whose address advances, and the
-/// commits.
+/// Returns the registers of the memory of classes: a window of words whose address advances, and
+/// the commits.
 fn class_registers(design: &Design) -> [Register; 3] {
     let register = |address, name: &str, doc: &str, fields| Register {
         name: name.to_owned(),

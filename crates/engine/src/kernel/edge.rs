@@ -8,7 +8,8 @@ use crate::kernel::{WindowRows, WindowSides, extended_block};
 use crate::periphery::BlockLevels;
 use foveate_pixels::vectors::{BLOCK_LENGTH, Block, VectorPixel};
 
-/// Adds one to every element whose window is an edge. `halves` are half of the levels, rounded down.
+/// Adds one to every element whose window is an edge. `halves` are half of the levels, rounded
+/// down.
 #[inline(always)]
 pub(crate) fn count_edges<T: VectorPixel>(
     windows: WindowRows<'_, T>,

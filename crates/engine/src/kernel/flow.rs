@@ -18,7 +18,8 @@ pub(crate) struct DisplacedErrors {
 }
 
 impl DisplacedErrors {
-    /// Makes one entry per displacement, in the order of preference, for bands of `columns` regions.
+    /// Makes one entry per displacement, in the order of preference, for bands of `columns`
+    /// regions.
     pub(crate) fn for_search(radius: u32, side: u32, columns: usize) -> Vec<Self> {
         let entry = |displacement: Displacement| Self {
             displacement,

@@ -44,8 +44,8 @@ pub(crate) struct WindowRows<'a, T> {
 
 /// The pixels that windows see beyond the sides of a region.
 pub(crate) trait WindowSides<T: VectorPixel>: Copy {
-    /// Returns the pixels at the left, center and right of the window of element `i` of block `at`, in
-    /// one row.
+    /// Returns the pixels at the left, center and right of the window of element `i` of block `at`,
+    /// in one row.
     fn window_row(self, row: &[T; BLOCK_LENGTH + 2], at: usize, i: usize) -> (T, T, T);
 
     /// Returns the sums of the left, center and right column of the window of element `i` of block

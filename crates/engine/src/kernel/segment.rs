@@ -19,8 +19,8 @@ pub(crate) struct SegmentPlan {
 }
 
 impl SegmentPlan {
-    /// Returns the largest pixel that is not above, from the sum of the n pixels of a region. It may
-    /// be larger than any pixel.
+    /// Returns the largest pixel that is not above, from the sum of the n pixels of a region. It
+    /// may be larger than any pixel.
     #[inline(always)]
     pub(crate) fn upper_bound(self, sum: u64, n: u64) -> u64 {
         (region_mean(sum, n, self.fraction_bits) >> self.fraction_bits) + u64::from(self.level)
@@ -34,8 +34,8 @@ impl SegmentPlan {
     }
 }
 
-/// Adds one to every element of `above` whose pixel is above its upper bound, and to every element of
-/// `below` whose pixel is below its lower bound.
+/// Adds one to every element of `above` whose pixel is above its upper bound, and to every element
+/// of `below` whose pixel is below its lower bound.
 #[inline(always)]
 pub(crate) fn count_parts<T: VectorPixel>(
     pixels: &[Block<T>],

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The temporal score: the number of pixels that differ from their reference by more than their level.
+//! The temporal score: the number of pixels that differ from their reference by more than their
+//! level.
 
 use crate::periphery::BlockLevels;
 use foveate_pixels::vectors::{BLOCK_LENGTH, Block, VectorPixel};
@@ -22,8 +23,8 @@ pub(crate) fn count_and_replace<T: VectorPixel>(
     }
 }
 
-/// Adds one to every element that has changed, and writes the current pixels to `store`. The reference
-/// stays.
+/// Adds one to every element that has changed, and writes the current pixels to `store`. The
+/// reference stays.
 #[inline(always)]
 pub(crate) fn count_and_store<T: VectorPixel>(
     now: &[Block<T>],

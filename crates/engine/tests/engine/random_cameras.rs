@@ -9,8 +9,8 @@ use foveate_camera::{
 use proptest::prelude::*;
 use proptest::sample::{select, subsequence};
 
-/// Returns cameras of every kind, with frames of one block of elements, of several blocks, and ragged
-/// ones.
+/// Returns cameras of every kind, with frames of one block of elements, of several blocks, and
+/// ragged ones.
 pub(crate) fn cameras() -> impl Strategy<Value = Camera> {
     let side = prop_oneof![
         4 => select(vec![2u32, 4, 8, 16, 32, 64]),
@@ -111,8 +111,8 @@ fn small(max: u32) -> impl Strategy<Value = u32> {
     prop_oneof![2 => 0..=max.min(4), 2 => 0..=max / 4, 1 => 0..=max]
 }
 
-/// Returns the number of valid levels of `segment`, and the largest minimum. Pixels of 1 bit are never
-/// on both sides of a mean without a fraction, with which only the minimum 0 is valid.
+/// Returns the number of valid levels of `segment`, and the largest minimum. Pixels of 1 bit are
+/// never on both sides of a mean without a fraction, with which only the minimum 0 is valid.
 fn segment_ranges(max: u32, fraction_bits: u32, half: u32) -> (u32, u32) {
     match (max.div_ceil(2), fraction_bits) {
         (1, 0) => (1, 0),

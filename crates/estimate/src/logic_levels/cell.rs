@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The timing of a cell: the inputs that each output depends on, and the pins at which paths
-//! start and end.
+//! start and end ([`CellTiming`]).
 //!
-//! The delays of Xilinx cells in picoseconds, from the `specify` blocks of Yosys' cell models
+//! Delays are in picoseconds, from the `specify` blocks of Yosys' cell models
 //! (`xilinx/cells_sim.v`). Where a `specify` block has a delay for each bit, the delay of the
 //! slowest bit is used for a whole group of bits.
 //!
-//! * The models are those of the 7 series. Yosys has none of UltraScale+, and uses these for it.
+//! * The models are those of the 7 series. Yosys has none of UltraScale+, and uses these for
+//!   it.
 //! * Setup times are left out, as those of ECP5 are 0.
-//!
-//! The pins of a cell that are connected to a net.
 
 use super::path::PathWeight;
 use super::raw_netlist::{PathBit, PathCell};

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The synthesized netlist in a form that can be edited before it is placed: the cells, ports
-//! and names of one module. All other fields stay as Yosys wrote them. The modules of the
-//! instances. Flattening keeps the instances in the names of nets and cells
-//! (`u_core.u_edge.count_q`), but not their modules, which are therefore read before it.
+//! The synthesized netlist on its way to the placement: one module whose cells, ports and names
+//! can be edited ([`PlacementNetlist`]), and the modules that its instances had before it was
+//! flattened ([`ModuleHierarchy`]), because only the names of nets and cells keep the
+//! instances. All other fields stay as Yosys wrote them.
 //!
-//! Replaces ports by flip-flops. A core is usually inside a chip: its inputs are driven, and its
-//! outputs are read, by nearby registers and not by pins, of which there are too few.
-//!
-//! An input bit comes from a flip-flop that holds its value; an output bit goes into a flip-flop
-//! that nothing reads. Paths from and to ports thus have the timing of a chip in which the
-//! neighbouring logic registers its signals. No pin affects the placement, and no logic is added.
-//! Constants at outputs need no flip-flop.
+//! Ports become flip-flops ([`replace_ports`]). A core is usually inside a chip: its inputs are
+//! driven, and its outputs are read, by nearby registers and not by pins, of which there are
+//! too few. An input bit comes from a flip-flop that holds its value; an output bit goes into a
+//! flip-flop that nothing reads. Paths from and to ports thus have the timing of a chip in
+//! which the neighbouring logic registers its signals. No pin affects the placement, and no
+//! logic is added. Constants at outputs need no flip-flop.
 
 use super::device::DeviceFamily;
 use crate::error::EstimateError;

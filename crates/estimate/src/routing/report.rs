@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The report on a placed and routed design on each device. Renders the placed design as text
-//! for a terminal and as Markdown. The longest path of a placement in the names of the source:
-//! modules, registers and ports.
+//! The report on a placed and routed design on each device ([`RouteReport`]), with its text for
+//! a terminal and as Markdown. It names the longest path as the source does, by modules,
+//! registers and ports ([`CriticalPath`]).
 
 use super::netlist::{ModuleHierarchy, NetlistCell, PlacementNetlist, replaced_port};
 use super::nextpnr_report::{CellPin, TimingPath};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The pins of a cell with its functions, capacitances, transition times and energies, from a liberty
-//! file.
+//! The pins of a cell with its functions, capacitances, transition times and energies, from a
+//! liberty file.
 
 use std::collections::BTreeMap;
 
@@ -17,8 +17,8 @@ pub struct CellModels {
     pub cells: BTreeMap<String, CellModel>,
     /// The nominal voltage in volts.
     pub voltage: f64,
-    /// The unit of capacitances in picofarads. Energies have this unit times one volt squared, which is
-    /// a picojoule if it is 1.
+    /// The unit of capacitances in picofarads. Energies have this unit times one volt squared,
+    /// which is a picojoule if it is 1.
     pub load_unit_pf: f64,
 }
 
@@ -40,8 +40,8 @@ pub struct CellPin {
     pub is_output: bool,
     /// The capacitance of an input.
     pub capacitance: f64,
-    /// The function of an output. Input i of it is pin i of the cell. The state of a flip-flop follows
-    /// the pins, and then its inverse.
+    /// The function of an output. Input i of it is pin i of the cell. The state of a flip-flop
+    /// follows the pins, and then its inverse.
     pub function: Option<LogicFunction>,
     /// The energies that the cell takes itself when the pin changes.
     pub energies: Vec<InternalEnergy>,
@@ -54,8 +54,8 @@ pub struct CellPin {
 pub struct InternalEnergy {
     /// The inputs of which any makes an output change; empty for an input and for any cause.
     pub related_pins: Vec<usize>,
-    /// The condition, a function of pins and state. Without one, the energy is for all values that no
-    /// condition of the same pins names.
+    /// The condition, a function of pins and state. Without one, the energy is for all values that
+    /// no condition of the same pins names.
     pub when: Option<LogicFunction>,
     /// The tables of a rise and of a fall, whose values are added up.
     pub tables: [Vec<LookupTable>; 2],
@@ -100,8 +100,8 @@ impl LibertyLibrary {
     /// Reads the models of cells.
     ///
     /// # Errors
-    /// Fails if a cell is not there or is neither combinational nor a flip-flop with a rising clock, if
-    /// a table cannot be read, or if the library has no voltage.
+    /// Fails if a cell is not there or is neither combinational nor a flip-flop with a rising
+    /// clock, if a table cannot be read, or if the library has no voltage.
     pub fn cell_models<'a>(
         &self,
         names: impl IntoIterator<Item = &'a str>,
@@ -267,7 +267,8 @@ impl InternalEnergy {
     }
 }
 
-/// Joins energies of the same inputs under the same condition: one for each edge, or for each supply.
+/// Joins energies of the same inputs under the same condition: one for each edge, or for each
+/// supply.
 fn merged(energies: Vec<InternalEnergy>) -> Vec<InternalEnergy> {
     let mut all: Vec<InternalEnergy> = Vec::new();
     for energy in energies {
@@ -286,8 +287,8 @@ fn merged(energies: Vec<InternalEnergy>) -> Vec<InternalEnergy> {
 }
 
 impl OutputTransition {
-    /// Reads the times of a group `timing`. One without transition times, such as a constraint, is no
-    /// transition.
+    /// Reads the times of a group `timing`. One without transition times, such as a constraint, is
+    /// no transition.
     fn from_group(
         group: &LibertyGroup,
         templates: &TableTemplates,
@@ -336,8 +337,8 @@ fn table(group: &LibertyGroup, templates: &TableTemplates) -> Result<LookupTable
     })
 }
 
-/// Returns the unit of capacitances in picofarads, which is 1 if the library does not say, or the unit if
-/// it is not known.
+/// Returns the unit of capacitances in picofarads, which is 1 if the library does not say, or the
+/// unit if it is not known.
 fn load_unit_pf(library: &LibertyGroup) -> Result<f64, String> {
     let Some(list) = library.list("capacitive_load_unit") else { return Ok(1.0) };
     let unit = || {

@@ -22,7 +22,8 @@ pub struct CellTotals {
 }
 
 impl CellTotals {
-    /// Adds up the cells of a module and of all modules inside it, except for the modules `without`.
+    /// Adds up the cells of a module and of all modules inside it, except for the modules
+    /// `without`.
     pub(super) fn of_module(
         netlist: &AreaNetlist,
         library: &LibertyLibrary,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The netlist of a design in the cells of a library, with models of the cells, for a
-//! simulator. The netlist of one unit of an array as a list of cells without modules, for a
-//! simulation of gates.
+//! The netlist of a design in the cells of a library, for a simulation of its gates: as Verilog
+//! with models of the cells, for a simulator ([`gate_netlist`]), or, for one unit of an array,
+//! as a list of cells without modules ([`FlatNetlist`]).
 
 use super::error::SiliconError;
 use super::job::SiliconJob;
@@ -17,9 +17,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 const MODELS: &str = "models.v";
 
-/// Maps a design as [`map_to_silicon`](super::map_to_silicon) does, and returns the netlist as Verilog: the
-/// modules of the array and of its units, and a model of each cell that they use, by its function in the
-/// library.
+/// Maps a design as [`map_to_silicon`](super::map_to_silicon) does, and returns the netlist as
+/// Verilog: the modules of the array and of its units, and a model of each cell that they use, by
+/// its function in the library.
 ///
 /// # Errors
 /// Fails if Yosys is missing or fails, if a cell has no model, and if a memory is too large for
@@ -49,8 +49,8 @@ pub fn gate_netlist(
     Ok(with_parameters(mapped.gates, synthesis) + &texts)
 }
 
-/// Gives the array the parameters that its source has. They have one value, for which the netlist was
-/// made.
+/// Gives the array the parameters that its source has. They have one value, for which the netlist
+/// was made.
 fn with_parameters(gates: String, synthesis: &SynthesisJob) -> String {
     let parameters = synthesis.parameters.iter();
     let parameters = parameters.map(|(name, value)| format!("parameter {name} = {value}"));
@@ -89,7 +89,8 @@ pub struct NetlistGate {
     pub cell: String,
     /// The net at each connected pin.
     pub pins: BTreeMap<String, usize>,
-    /// True if the cell is in the unit, and false if it is in the logic that the units of an array share.
+    /// True if the cell is in the unit, and false if it is in the logic that the units of an array
+    /// share.
     pub is_in_unit: bool,
 }
 
@@ -116,8 +117,8 @@ pub fn map_unit(
         .ok_or_else(|| SiliconError::Netlist { reason: format!("module `{top}` cannot be read") })
 }
 
-/// Returns the cells of a module and of all modules inside it. A cell inside one of the modules `units` is
-/// in a unit.
+/// Returns the cells of a module and of all modules inside it. A cell inside one of the modules
+/// `units` is in a unit.
 fn flatten(json: &Value, top: &str, units: &[String]) -> Option<FlatNetlist> {
     let mut flattener = NetlistFlattener {
         json,
@@ -162,8 +163,8 @@ struct NetlistFlattener<'a> {
 }
 
 impl NetlistFlattener<'_> {
-    /// Adds the cells of a module. `nets` are the nets of its ports by their numbers in the module; all
-    /// nets of the module are returned.
+    /// Adds the cells of a module. `nets` are the nets of its ports by their numbers in the module;
+    /// all nets of the module are returned.
     fn add_module(
         &mut self,
         name: &str,
@@ -199,7 +200,8 @@ impl NetlistFlattener<'_> {
         Some(nets)
     }
 
-    /// Adds an instance of a module, whose ports are connected to these nets of the module around it.
+    /// Adds an instance of a module, whose ports are connected to these nets of the module around
+    /// it.
     fn add_instance(
         &mut self,
         kind: &str,
@@ -243,8 +245,8 @@ fn net_of_bit(bit: &Value, nets: &BTreeMap<u64, usize>) -> Option<usize> {
     }
 }
 
-/// Returns the numbers of the nets that are bits of the words of memories: nets with two indexes, such as
-/// `u_store.words_q[12][3]`.
+/// Returns the numbers of the nets that are bits of the words of memories: nets with two indexes,
+/// such as `u_store.words_q[12][3]`.
 fn memory_bits(module: &Value) -> Option<BTreeSet<u64>> {
     let names = module["netnames"].as_object()?.iter();
     let of_memory = names.filter(|(name, net)| {

@@ -50,12 +50,12 @@ impl SiliconJob {
     }
 }
 
-/// Maps a design to `library` with Yosys, and times it with OpenSTA. Memories that are not mapped get
-/// macros from `macros`.
+/// Maps a design to `library` with Yosys, and times it with OpenSTA. Memories that are not mapped
+/// get macros from `macros`.
 ///
 /// # Errors
-/// Fails if a tool is missing or fails, if the library lacks a cell that the design needs or the area
-/// of one, or if cells and macros have different voltages.
+/// Fails if a tool is missing or fails, if the library lacks a cell that the design needs or the
+/// area of one, or if cells and macros have different voltages.
 pub fn map_to_silicon(
     toolchain: &Toolchain,
     cache: &Cache,
@@ -131,12 +131,12 @@ fn unit_and_shared_cells(
     Ok((unit, shared))
 }
 
-/// Checks that a library has the cells that every design needs, and that macros fit to it. Returns the area of a
-/// gate equivalent in square micrometres.
+/// Checks that a library has the cells that every design needs, and that macros fit to it. Returns
+/// the area of a gate equivalent in square micrometres.
 ///
 /// # Errors
-/// Fails if the library lacks a NAND of two inputs with an area or a flip-flop, if a library of macros has no
-/// memory, or if cells and macros have different voltages.
+/// Fails if the library lacks a NAND of two inputs with an area or a flip-flop, if a library of
+/// macros has no memory, or if cells and macros have different voltages.
 pub fn check_libraries(
     library: &LibertyLibrary,
     macros: &[LibertyLibrary],
@@ -145,7 +145,8 @@ pub fn check_libraries(
     check_cells(library)
 }
 
-/// Refuses a library without the cells that every design needs. Returns the area of a gate equivalent.
+/// Refuses a library without the cells that every design needs. Returns the area of a gate
+/// equivalent.
 fn check_cells(library: &LibertyLibrary) -> Result<f64, SiliconError> {
     let missing = |missing| SiliconError::MissingCell { library: library.name.clone(), missing };
     let gate_area_um2 =

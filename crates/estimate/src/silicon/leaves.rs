@@ -21,8 +21,8 @@ pub struct SiliconLeaf {
     pub cells: CellTotals,
 }
 
-/// Lists the modules inside `top`, its own cells first. Instances of one module with the same parameters
-/// share a row.
+/// Lists the modules inside `top`, its own cells first. Instances of one module with the same
+/// parameters share a row.
 pub(super) fn list_leaves(
     netlist: &AreaNetlist,
     library: &LibertyLibrary,

@@ -66,8 +66,8 @@ impl LibertyLibrary {
     /// Reads a library from a file, which may be compressed by gzip.
     ///
     /// # Errors
-    /// Fails if the file cannot be read, is larger than 400 MB, is no liberty file with one library, or
-    /// has no cell.
+    /// Fails if the file cannot be read, is larger than 400 MB, is no liberty file with one
+    /// library, or has no cell.
     pub fn read(path: &Path) -> Result<Self, SiliconError> {
         let text = read_text(path)
             .map_err(|source| SiliconError::Unreadable { path: path.to_owned(), source })?;
@@ -104,8 +104,9 @@ impl LibertyLibrary {
         (CELLS.to_owned(), self.text.clone())
     }
 
-    /// Returns the file of the library for a timer, without a choice of wire loads: wires are in no figure, and
-    /// OpenSTA of 2019 adds those that the library chooses, while later versions do not.
+    /// Returns the file of the library for a timer, without a choice of wire loads: wires are in no
+    /// figure, and OpenSTA of 2019 adds those that the library chooses, while later versions do
+    /// not.
     pub(super) fn source_without_wires(&self) -> Source {
         (CELLS.to_owned(), without_wire_loads(&self.text))
     }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The functions of pins of a liberty library.
 //!
-//! The operators are `!` before and `'` behind an operand, `^` for exclusive or, `&`, `*` and a space for
-//! and, `|` and `+` for or. Each of them binds stronger than those that stand behind it in this list.
+//! The operators are `!` before and `'` behind an operand, `^` for exclusive or, `&`, `*` and a
+//! space for and, `|` and `+` for or. Each of them binds stronger than those that stand behind it
+//! in this list.
 
 /// The largest number of inputs of a function of which a table is made.
 const MAX_INPUTS: usize = 4;
@@ -27,8 +28,8 @@ pub enum LogicFunction {
 }
 
 impl LogicFunction {
-    /// Reads a function; an input is numbered by its place in `inputs`. Returns `None` for a text that
-    /// is no function of these inputs.
+    /// Reads a function; an input is numbered by its place in `inputs`. Returns `None` for a text
+    /// that is no function of these inputs.
     pub(super) fn parse(function: &str, inputs: &[&str]) -> Option<Self> {
         let mut parser = FunctionParser { text: function.trim(), inputs, depth: 0 };
         let function = parser.or()?;

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Maps an array to the cells of a library with Yosys. Large memories are cut out, and their
-//! ports become ports of the netlist.
+//! Maps an array to the cells of a library with Yosys ([`map_array`]). Large memories are cut
+//! out, their ports become ports of the netlist, and macros are chosen that could hold them
+//! ([`plan_memory`]).
 //!
-//! The macros that hold the memories that are not mapped to cells.
-//!
-//! A memory whose words are read at a clock edge fits in macros with at least as many ports as it
-//! reads and writes at a time. Its words are split over macros side by side, and its number of words
-//! over macros one after the other; of all macros, those with the smallest area are chosen. The logic
-//! that would select among macros is not counted.
+//! A memory whose words are read at a clock edge fits in macros with at least as many ports as
+//! it reads and writes at a time. Its words are split over macros side by side, and its number
+//! of words over macros one after the other; of all macros, those with the smallest area are
+//! chosen. The logic that would select among macros is not counted.
 
 use super::error::SiliconError;
 use super::library::{CELLS, LibertyLibrary, MemoryShape};
@@ -50,7 +49,8 @@ pub(super) struct MappedArray {
 }
 
 impl MappedArray {
-    /// Refuses an array of which a memory is not in the netlist, because it has more than `limit` bits.
+    /// Refuses an array of which a memory is not in the netlist, because it has more than `limit`
+    /// bits.
     pub(super) fn check_memories(&self, limit: u64) -> Result<(), SiliconError> {
         match self.memories.iter().map(|memory| memory.words * memory.width).max() {
             None => Ok(()),
@@ -130,7 +130,8 @@ fn mapping_job(synthesis: &SynthesisJob, library: &LibertyLibrary, limit: u64) -
         parameters.iter().map(|(name, value)| format!(" -set {name} {value}")).collect();
     let set = if set.is_empty() { set } else { format!("chparam{set} {array}\n") };
     let keep = format!("setattr -mod -set keep_hierarchy 1 {unit}\n");
-    // Instances get plain names and buses become single nets, because OpenSTA of 2019 reads no others.
+    // Instances get plain names and buses become single nets, because OpenSTA of 2019 reads no
+    // others.
     let script = format!(
         "{}synth -top {array} -flatten\n{}\
          rename -enumerate -pattern cell_%\n\
@@ -223,7 +224,8 @@ fn cut_memories(json: &Value, array: &str) -> Result<Vec<UnmappedMemory>, Silico
     Ok(found)
 }
 
-/// Returns the instances on the path to a memory, without the generate blocks around them: `u_forward.u_buffer`.
+/// Returns the instances on the path to a memory, without the generate blocks around them:
+/// `u_forward.u_buffer`.
 fn instance_path(name: &str) -> String {
     let path = name.trim_end_matches(".u_memory");
     let instances: Vec<&str> = path.split('.').filter(|part| part.starts_with("u_")).collect();

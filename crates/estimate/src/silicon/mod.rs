@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Area, timing and leakage of a design in the cells of a process.
 //!
-//! Yosys maps the Verilog to the cells of a liberty file, and OpenSTA times the netlist. The files are
-//! the user's own: those of open processes, or of a foundry.
+//! Yosys maps the Verilog to the cells of a liberty file, and OpenSTA times the netlist. The files
+//! are the user's own: those of open processes, or of a foundry.
 
 mod cell_model;
 mod cell_totals;

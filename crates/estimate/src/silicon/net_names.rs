@@ -3,8 +3,8 @@
 
 use serde_json::Value;
 
-/// Returns the name of the net that a cell drives, in place of the cell's number: `u_core/cell_9` of
-/// the module `top` becomes `u_core.count_q[3]`. A port or an unknown cell keeps its name.
+/// Returns the name of the net that a cell drives, in place of the cell's number: `u_core/cell_9`
+/// of the module `top` becomes `u_core.count_q[3]`. A port or an unknown cell keeps its name.
 pub(super) fn source_name(netlist: &Value, top: &str, cell: &str) -> String {
     net_of_cell(netlist, top, cell).unwrap_or_else(|| cell.to_owned())
 }

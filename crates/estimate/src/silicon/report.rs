@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The report on a design in the cells of a library. Renders the report as text for a terminal
-//! and as Markdown.
+//! The report on a design in the cells of a library ([`SiliconReport`]), with its text for a
+//! terminal and as Markdown.
 
 use super::cell_totals::CellTotals;
 use super::leaves::SiliconLeaf;
@@ -127,8 +127,8 @@ impl SiliconReport {
         area_um2 / self.library.gate_area_um2
     }
 
-    /// Returns the side in micrometres of a pixel under which the circuit of its region fits: the N x N
-    /// pixels of a region together have as much area as a region's share of cells and macros.
+    /// Returns the side in micrometres of a pixel under which the circuit of its region fits: the N
+    /// x N pixels of a region together have as much area as a region's share of cells and macros.
     #[must_use]
     pub fn pixel_pitch_um(&self) -> f64 {
         let of_region = self.area_mm2() * 1e6 / count_to_f64(self.regions);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The longest path and the leakage of a netlist, from OpenSTA. The longest path and the
-//! leakage of an array, from the timing of one of its units with the logic that the units
-//! share. A table of a liberty file: energies or times by the transition time of an input and
-//! the load of an output.
+//! The longest path and the leakage of an array in the cells of a library. OpenSTA finds those
+//! of a module ([`time_module`]); those of the array follow from one of its units with the
+//! logic that the units share ([`time_array`]). A [`LookupTable`] is how a library states times
+//! and energies: by the transition time of an input and the load of an output.
 
 use super::error::SiliconError;
 use super::liberty_text::LibertyGroup;
@@ -17,15 +17,16 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 const NETLIST: &str = "netlist.v";
-/// The period of the clock in nanoseconds. OpenSTA computes with 24 bits, so a longer one would cost
-/// digits of the path.
+/// The period of the clock in nanoseconds. OpenSTA computes with 24 bits, so a longer one would
+/// cost digits of the path.
 const PERIOD_NS: f64 = 1000.0;
 /// The lines between which the script prints the reports.
 const PATH_MARK: &str = "foveate: longest path";
 const POWER_MARK: &str = "foveate: power";
 const END_MARK: &str = "foveate: end";
 
-/// The longest path of an array with one of its units, from register to register, or from or to its ports.
+/// The longest path of an array with one of its units, from register to register, or from or to its
+/// ports.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SiliconPath {
     /// The delay with the setup time of its end, in nanoseconds.
@@ -208,8 +209,8 @@ enum TableAxis {
 #[derive(Clone, Debug, Default)]
 pub(super) struct TableTemplates(BTreeMap<String, Vec<(TableAxis, Vec<f64>)>>);
 
-/// A table of energies or times. Between its points it is linear, and beyond them it goes on as in the
-/// last interval, as OpenSTA reads it.
+/// A table of energies or times. Between its points it is linear, and beyond them it goes on as in
+/// the last interval, as OpenSTA reads it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LookupTable {
     slews: Vec<f64>,
@@ -239,8 +240,8 @@ impl TableTemplates {
 }
 
 impl LookupTable {
-    /// Reads the table of a group such as `rise_power (NAME) { ... }`. Returns `None` if its template is
-    /// not known or its values are not as many as its points.
+    /// Reads the table of a group such as `rise_power (NAME) { ... }`. Returns `None` if its
+    /// template is not known or its values are not as many as its points.
     pub(super) fn from_group(group: &LibertyGroup, templates: &TableTemplates) -> Option<Self> {
         let values: Vec<f64> = numbers(group.list("values")?)?;
         if let [value] = values[..] {
@@ -291,8 +292,8 @@ impl LookupTable {
     }
 }
 
-/// Returns the interval of sorted points in which a place is, or the nearest one, and the place in it:
-/// 0 at its begin and 1 at its end.
+/// Returns the interval of sorted points in which a place is, or the nearest one, and the place in
+/// it: 0 at its begin and 1 at its end.
 fn interval(points: &[f64], place: f64) -> (usize, f64) {
     if points.len() < 2 {
         return (0, 0.0);

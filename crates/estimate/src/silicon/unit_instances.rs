@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Netlists with one unit of an array or with none, for OpenSTA.
 //!
-//! A whole array may have millions of cells, and the registers that drive all of its units would have
-//! loads that a layout divides by buffers.
+//! A whole array may have millions of cells, and the registers that drive all of its units would
+//! have loads that a layout divides by buffers.
 
 /// The name of a unit that is timed by itself. That of Yosys is no plain name.
 pub(super) const LONE_UNIT: &str = "foveate_unit";
 
-/// Returns the netlist with only the first instance of the module `kept`, and without all instances of
-/// the other `units`. With `None` no instance stays.
+/// Returns the netlist with only the first instance of the module `kept`, and without all instances
+/// of the other `units`. With `None` no instance stays.
 pub(super) fn with_units(netlist: &str, units: &[String], kept: Option<&str>) -> String {
     let starts: Vec<(String, &str)> =
         units.iter().map(|unit| (format!("  {} ", verilog_name(unit)), unit.as_str())).collect();

@@ -124,8 +124,8 @@ impl<'a> CameraSearch<'a> {
     }
 
     /// Finds the best thresholds of each pair of a region size and features. Then it finds those of
-    /// every cheaper version of the nearest pairs: other depths, windows, filters and references. It
-    /// examines the cameras that meet the limits, or the nearest ones if none does.
+    /// every cheaper version of the nearest pairs: other depths, windows, filters and references.
+    /// It examines the cameras that meet the limits, or the nearest ones if none does.
     ///
     /// # Errors
     /// Fails if the ideal camera is active too rarely for a limit on missed regions.
@@ -159,8 +159,9 @@ impl<'a> CameraSearch<'a> {
         self.examine_nearest(&found)
     }
 
-    /// Examines the cameras that meet the limits on their decisions in the searched part, each with the
-    /// best thresholds that meet all limits in both parts; or the nearest cameras if there is none.
+    /// Examines the cameras that meet the limits on their decisions in the searched part, each with
+    /// the best thresholds that meet all limits in both parts; or the nearest cameras if there is
+    /// none.
     fn examine_nearest(&mut self, found: &[Vec<ThresholdChoice>]) -> Result<(), ExploreError> {
         let holding = found.iter().filter(|nearest| nearest[0].meets_limits()).count();
         let nearest = &found[..holding.max(MAX_NEAREST_CAMERAS).min(found.len())];
@@ -260,8 +261,8 @@ impl<'a> CameraSearch<'a> {
         found.into_iter().chain(coarse).collect()
     }
 
-    /// Examines cameras on the searched part of all clips and on the part that confirms. It leaves out
-    /// invalid cameras.
+    /// Examines cameras on the searched part of all clips and on the part that confirms. It leaves
+    /// out invalid cameras.
     pub(super) fn examine(
         &mut self,
         configs: &[CameraConfig],
@@ -477,8 +478,8 @@ mod tests {
         assert_eq!(second.problems, ["shortened: it had 12 frames at first, and later only 6"]);
     }
 
-    /// The levels of 4 bits that the task's round to are not the best ones: with them no minima meet the
-    /// limits. The search is as near to the limits as all cameras of a grid.
+    /// The levels of 4 bits that the task's round to are not the best ones: with them no minima
+    /// meet the limits. The search is as near to the limits as all cameras of a grid.
     #[test]
     fn thresholds_are_chosen_anew_for_a_depth() {
         let dir = tempfile::tempdir().unwrap();

@@ -46,8 +46,8 @@ pub struct Constraints {
     pub max_bram: Option<u64>,
     /// The largest area of the array in the cells of a process, in square millimetres.
     pub max_mm2: Option<f64>,
-    /// The largest power of the array in the cells of a process in milliwatts, in the busiest stretch of all
-    /// clips, if its clock stops when a frame is done.
+    /// The largest power of the array in the cells of a process in milliwatts, in the busiest
+    /// stretch of all clips, if its clock stops when a frame is done.
     pub max_mw: Option<f64>,
 }
 
@@ -59,8 +59,8 @@ const UNKNOWN_EXCESS: f64 = 64.0;
 pub struct ConstraintCheck {
     /// The name of the option that sets the limit, without its dashes.
     pub name: &'static str,
-    /// The figure. The PSNR of identical screens is infinite, and so is an area or a power that is not known;
-    /// in JSON they are null.
+    /// The figure. The PSNR of identical screens is infinite, and so is an area or a power that is
+    /// not known; in JSON they are null.
     pub value: f64,
     /// The limit: the largest or the least value of the figure.
     pub limit: f64,
@@ -254,8 +254,9 @@ impl Constraints {
         rates.filter_map(rate).chain(self.check_screen(camera, part)).collect()
     }
 
-    /// Returns the constraints on the decisions, the screen and the sent bytes of a camera, each with
-    /// the worse of its figures in two parts of the clips. Rates are those to expect of other frames.
+    /// Returns the constraints on the decisions, the screen and the sent bytes of a camera, each
+    /// with the worse of its figures in two parts of the clips. Rates are those to expect of other
+    /// frames.
     pub(super) fn check_parts(
         &self,
         camera: &Camera,

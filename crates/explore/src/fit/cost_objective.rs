@@ -7,14 +7,14 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum CostObjective {
-    /// The bytes that leave the camera; the share of the FPGA decides between cameras with equal bytes. It
-    /// needs a network.
+    /// The bytes that leave the camera; the share of the FPGA decides between cameras with equal
+    /// bytes. It needs a network.
     Bytes,
     /// The share of the FPGA, a VCU118, that the array takes.
     Area,
     /// The area of the array in the cells of a process, in square millimetres. It needs a process.
     Mm2,
-    /// The power of the array in the cells of a process at the wanted frame rate, in the usual stretches of
-    /// the clips. It needs a process.
+    /// The power of the array in the cells of a process at the wanted frame rate, in the usual
+    /// stretches of the clips. It needs a process.
     Energy,
 }

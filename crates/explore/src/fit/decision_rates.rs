@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The flips, missed regions and false alarms of a camera in a part of all clips, and the rates
-//! to expect of other frames. By how much a figure over some frames may differ from the same
-//! figure over as many other frames.
+//! What the decisions of a camera in some frames say about other frames: its flips, missed
+//! regions and false alarms there ([`DecisionRates`]), and by how much such a figure may be
+//! worse over as many other frames ([`group_margin`], [`share_of_others`]).
 
 use crate::row::count_to_f64;
 use foveate_inference::wilson_interval;
@@ -96,8 +96,8 @@ pub(super) fn frame_group(number: usize, frames: usize) -> usize {
     number * group_count(frames) / frames
 }
 
-/// Returns by how much a figure over as many other frames may be worse, from its values without each
-/// of the groups; 0 if there are fewer than two groups.
+/// Returns by how much a figure over as many other frames may be worse, from its values without
+/// each of the groups; 0 if there are fewer than two groups.
 pub(crate) fn group_margin(groups: usize, without: impl Fn(usize) -> f64) -> f64 {
     if groups < 2 {
         return 0.0;
@@ -107,8 +107,8 @@ pub(crate) fn group_margin(groups: usize, without: impl Fn(usize) -> f64) -> f64
     STUDENT_QUANTILES[groups - 2] * 2.0_f64.sqrt() * jackknife(groups, without)
 }
 
-/// Returns the least and the largest share that as many other things are likely to have, even if all
-/// groups happen to be alike: Wilson's interval for the difference of two shares.
+/// Returns the least and the largest share that as many other things are likely to have, even if
+/// all groups happen to be alike: Wilson's interval for the difference of two shares.
 pub(super) fn share_of_others(share: f64, count: f64) -> [f64; 2] {
     let half = count / 2.0;
     if half == 0.0 { [share; 2] } else { wilson_interval(share, half, NORMAL_QUANTILE) }
@@ -130,8 +130,9 @@ mod tests {
     use super::*;
     use foveate_measure::ActiveAreas;
 
-    /// Two groups of 100 regions of 2x2 pixels: in one of them nothing flips and nothing is missed, in the other
-    /// one 10 regions flip, 5 of 50 active regions are missed, and 20 of 65 are false alarms.
+    /// Two groups of 100 regions of 2x2 pixels: in one of them nothing flips and nothing is missed,
+    /// in the other one 10 regions flip, 5 of 50 active regions are missed, and 20 of 65 are false
+    /// alarms.
     #[test]
     fn rates_have_the_worse_of_two_margins() {
         let group = |action: u64, both: u64, candidate: u64| {

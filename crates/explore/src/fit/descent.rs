@@ -58,9 +58,9 @@ impl<'s, 'a> Descent<'s, 'a> {
     }
 
     /// Descends from the task and from a camera that sends nearly all pixels, until no cheaper
-    /// camera agrees enough. If no start agrees enough, the descent tries the cameras around the one
-    /// that sends nearly all pixels. The search then contains the camera where the descent ends, or
-    /// the camera that sends nearly all pixels if none meets the limits.
+    /// camera agrees enough. If no start agrees enough, the descent tries the cameras around the
+    /// one that sends nearly all pixels. The search then contains the camera where the descent
+    /// ends, or the camera that sends nearly all pixels if none meets the limits.
     pub(super) fn run(mut self) -> Result<KnownAgreements, ExploreError> {
         let all = nearly_all_sent(self.search.task());
         let mut starts = irrelevant_variants(self.search.task());
@@ -286,8 +286,8 @@ mod tests {
 
     const FLOW: &str = "[[spatial]]\nfeature = \"flow\"\nradius = 2\n";
 
-    /// A region has no displacement without a reference, and with `last-sent` no reference without a
-    /// vote.
+    /// A region has no displacement without a reference, and with `last-sent` no reference without
+    /// a vote.
     #[test]
     fn nearly_all_is_sent_with_flow_alone() {
         let all = nearly_all_sent(&CameraConfig::from_toml(FLOW).unwrap());

@@ -30,8 +30,8 @@ pub struct FittedDesign {
     pub summary: String,
     /// The number of clocks from one frame to the next.
     pub clocks_per_frame: u64,
-    /// The frames per second, at the clock of the request, at the highest clock in the process if that is
-    /// lower, or at the clock that is estimated from the netlist.
+    /// The frames per second, at the clock of the request, at the highest clock in the process if
+    /// that is lower, or at the clock that is estimated from the netlist.
     pub speed: Option<FrameRate>,
     /// The area on the FPGA.
     pub silicon: DesignArea,

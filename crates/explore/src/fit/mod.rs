@@ -8,10 +8,10 @@
 //!    tries region sizes and features, and for the best of them all depths, windows, filters and
 //!    references ([`camera_search`]), each with the thresholds that are nearest to the limits
 //!    ([`threshold_search`]). Thresholds are chosen on the first two thirds of the first half. All
-//!    limits must hold there and on the rest of the first half ([`search_frames`]), with a margin for
-//!    other frames ([`decision_rates`]).
-//!    With a network, the search is a descent from the task instead: the network must agree, behind
-//!    the camera, with its outputs for whole frames ([`descent`], [`network_agreement`]).
+//!    limits must hold there and on the rest of the first half ([`search_frames`]), with a margin
+//!    for other frames ([`decision_rates`]). With a network, the search is a descent from the task
+//!    instead: the network must agree, behind the camera, with its outputs for whole frames
+//!    ([`descent`], [`network_agreement`]).
 //! 3. Of the cameras that meet the limits, only the simplest are built: a camera is dropped if a
 //!    simpler one also meets the limits. If the fewest bytes are wanted, only the cameras that send
 //!    the fewest are built ([`simplest_cameras`]). Each is built with every feed and with the folds
@@ -82,13 +82,14 @@ pub struct FitRequest<'a> {
     pub inputs: &'a [PathBuf],
     /// The options for reading the clips.
     pub input: &'a InputOptions,
-    /// A disturbance of the frames that candidates see; the ideal camera sees the clips as they are.
+    /// A disturbance of the frames that candidates see; the ideal camera sees the clips as they
+    /// are.
     pub disturbance: Option<Disturbance>,
     /// The limits that the design must meet.
     pub constraints: &'a Constraints,
     /// The clock in Hz, if it is known. Otherwise the clock of each design is estimated from its
-    /// netlist, and [`Constraints::min_fps`] is checked at the low end of its range. With a process, a design
-    /// has the highest clock in its cells, or this one if it is lower.
+    /// netlist, and [`Constraints::min_fps`] is checked at the low end of its range. With a
+    /// process, a design has the highest clock in its cells, or this one if it is lower.
     pub clock_hz: Option<u64>,
     /// The wanted share of active regions, 0..=1; the task's thresholds are set to reach it.
     pub target_active: Option<f64>,
@@ -137,8 +138,8 @@ impl FitRequest<'_> {
         of_energy.max(ClipPart::MIN_FRAMES)
     }
 
-    /// Returns the first halves and the second halves of all clips, on which energies are measured, if there
-    /// is a process.
+    /// Returns the first halves and the second halves of all clips, on which energies are measured,
+    /// if there is a process.
     fn energy_halves<'c>(
         &'c self,
         footage: &'c ExplorationFootage<'_>,
@@ -157,8 +158,9 @@ impl FitRequest<'_> {
 /// one if no design does, and measures it on the second half.
 ///
 /// # Errors
-/// Fails if the task has zones, if a cost or a limit needs a process and there is none, if an input cannot be read or is too short to be halved, if Yosys is
-/// missing or fails, or if `hooks` cancels.
+/// Fails if the task has zones, if a cost or a limit needs a process and there is none, if an input
+/// cannot be read or is too short to be halved, if Yosys is missing or fails, or if `hooks`
+/// cancels.
 pub fn fit(request: &FitRequest<'_>, hooks: &dyn RunHooks) -> Result<FitResult, ExploreError> {
     if request.task.camera.zones.is_some() {
         return Err(ExploreError::Zones);

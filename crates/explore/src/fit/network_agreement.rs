@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A network that must agree, behind the camera, with its outputs for whole frames.
+//! A network that must agree, behind the camera, with its outputs for whole frames
+//! ([`NetworkGoal`]).
 //!
-//! The network first runs on some whole frames of every part of the clips, spread evenly. Later it
-//! runs on the same frames behind a camera. If a least agreement is wanted, this ends as soon as
-//! the camera could not reach it even if the outputs for all later frames were equal.
-//!
-//! The goal of a fit with a network, and the agreement that the chosen design reaches. The
-//! agreement of a network over some frames, and its bound for other frames. The agreements that
-//! a descent has measured, and the reasons that follow from them.
+//! The network first runs on some whole frames of every part of the clips, spread evenly. Later
+//! it runs on the same frames behind a camera ([`NetworkAgreement`]). If a least agreement is
+//! wanted, this ends as soon as the camera could not reach it even if the outputs for all later
+//! frames were equal. Each agreement comes with a bound for other frames
+//! ([`AgreementEstimate`]), and those that a descent has measured give the reasons for its
+//! result ([`KnownAgreements`]).
 
 use super::decision_rates::{frame_group, group_count, group_margin, share_of_others};
 use super::search_frames::{ClipPart, spread_evenly};

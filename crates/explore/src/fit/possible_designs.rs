@@ -63,10 +63,11 @@ impl BuildBounds {
 
 /// Returns the possible designs of a camera. For each feed of a serial array these are the folds
 /// that are fast enough and may be the cheapest, and halvings of the deepest fold, because only a
-/// synthesis shows which one is the cheapest. If no fold is fast enough, the pipelined array is possible,
-/// and at a planned clock also fold 1. In the cells of a process the pipelined array is always possible. A raster core has the fewest pixels per clock that
-/// are fast enough; at a planned clock it has the most, if none is fast enough. There is no raster core
-/// if the energy decides.
+/// synthesis shows which one is the cheapest. If no fold is fast enough, the pipelined array is
+/// possible, and at a planned clock also fold 1. In the cells of a process the pipelined array is
+/// always possible. A raster core has the fewest pixels per clock that are fast enough; at a
+/// planned clock it has the most, if none is fast enough. There is no raster core if the energy
+/// decides.
 pub(super) fn possible_designs(
     camera: &CameraConfig,
     task_hardware: &HardwareConfig,

@@ -40,8 +40,8 @@ impl RoughCostModel {
         }
     }
 
-    /// Returns roughly the cost of a design: the share of the FPGA, gate equivalents, or gate equivalents
-    /// times clocks of a frame.
+    /// Returns roughly the cost of a design: the share of the FPGA, gate equivalents, or gate
+    /// equivalents times clocks of a frame.
     pub(super) fn cost(self, design: &Design) -> f64 {
         match self.objective {
             CostObjective::Bytes | CostObjective::Area => rough_share(design),
@@ -53,8 +53,9 @@ impl RoughCostModel {
         }
     }
 
-    /// Returns roughly the area of a design in the cells of a process, in gate equivalents. The constants are
-    /// read from `foveate estimate --liberty` for the presets `paper`, `bare` and `serial`.
+    /// Returns roughly the area of a design in the cells of a process, in gate equivalents. The
+    /// constants are read from `foveate estimate --liberty` for the presets `paper`, `bare` and
+    /// `serial`.
     fn gates(self, design: &Design) -> f64 {
         /// A bit of a reference that is a shift register.
         const SHIFTED_BIT: f64 = 6.6;
@@ -84,7 +85,8 @@ impl RoughCostModel {
         const FLIP_FLOP_BIT: f64 = 8.0;
         /// A bit of a memory macro.
         const MACRO_BIT: f64 = 1.0;
-        /// A bit of a memory without a macro, so that designs whose area will not be known come last.
+        /// A bit of a memory without a macro, so that designs whose area will not be known come
+        /// last.
         const UNKNOWN_BIT: f64 = 1000.0;
         let bit = match bits <= self.memory_limit {
             true => FLIP_FLOP_BIT,
@@ -116,8 +118,8 @@ fn rough_share(design: &Design) -> f64 {
         + count_to_f64(blocks) / count_to_f64(device.bram18)
 }
 
-/// Returns roughly the LUTs of a design without its memories. The constants are read from the area table of
-/// 8x8 regions, and for raster cores from docs/organizations.md.
+/// Returns roughly the LUTs of a design without its memories. The constants are read from the area
+/// table of 8x8 regions, and for raster cores from docs/organizations.md.
 fn rough_logic_luts(design: &Design) -> f64 {
     let bits = f64::from(design.pixel_bits());
     let kinds = design.features().iter().map(|feature| feature.kind());

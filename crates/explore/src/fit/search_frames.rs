@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The frames of the part of all clips that cameras are searched by, with the decisions of the
-//! ideal camera. They are kept in memory if they fit, and read again otherwise. The parts of
-//! every clip that a fit uses, and the frames that a network sees.
+//! The frames that a fit uses: every clip has parts for the search, its confirmation and the
+//! result ([`ClipPart`]). Those of the search come with the decisions of the ideal camera
+//! ([`SearchFrames`]); they are kept in memory if they fit, and read again otherwise.
 
 use super::decision_rates::frame_group;
 use crate::ExploreError;

@@ -29,8 +29,8 @@ pub(super) fn slower_designs(design: &Design, speed: &FrameRate, min_fps: f64) -
     }
 }
 
-/// Returns the expected cost of a slower design from the design that it is derived from. In a process, the
-/// rough costs of the two have about the ratio of their costs.
+/// Returns the expected cost of a slower design from the design that it is derived from. In a
+/// process, the rough costs of the two have about the ratio of their costs.
 pub(super) fn expected_cost(
     design: &Design,
     from: &SynthesizedDesign,
@@ -44,9 +44,9 @@ pub(super) fn expected_cost(
     }
 }
 
-/// Returns the expected share of the FPGA of a slower design, from the area of the design that it is
-/// derived from. Its lanes have the logic of that design's lanes, and their memory follows from the
-/// fold. Half the pixels per clock take half the logic.
+/// Returns the expected share of the FPGA of a slower design, from the area of the design that it
+/// is derived from. Its lanes have the logic of that design's lanes, and their memory follows from
+/// the fold. Half the pixels per clock take half the logic.
 fn expected_share(design: &Design, silicon: &DesignArea) -> f64 {
     let DesignArea { unit, units, array, .. } = silicon;
     let area = match design.hardware() {

@@ -103,9 +103,10 @@ struct FitSynthesis<'a> {
 }
 
 impl FitSynthesis<'_> {
-    /// Looks for cheaper designs among those that meet the limits: it folds them again for their own
-    /// clock, which is faster than the planned one, or halves their pixels per clock. A design is
-    /// synthesized if it is expected to be cheaper than the cheapest so far, the most promising first.
+    /// Looks for cheaper designs among those that meet the limits: it folds them again for their
+    /// own clock, which is faster than the planned one, or halves their pixels per clock. A design
+    /// is synthesized if it is expected to be cheaper than the cheapest so far, the most promising
+    /// first.
     fn add_slower_designs(
         &self,
         candidates: &mut Vec<SynthesizedDesign>,
@@ -137,8 +138,8 @@ impl FitSynthesis<'_> {
         Ok(())
     }
 
-    /// Synthesizes the designs of some cameras, the promising ones first, until one meets the limits or
-    /// there are `most` of them. Returns the number of designs that are left out.
+    /// Synthesizes the designs of some cameras, the promising ones first, until one meets the
+    /// limits or there are `most` of them. Returns the number of designs that are left out.
     fn in_batches(
         &self,
         cameras: &[&ExaminedCamera],
@@ -203,8 +204,8 @@ impl FitSynthesis<'_> {
     }
 }
 
-/// Sorts designs by their rough cost, after the cheapest one of each organization: a limit on a unit
-/// may exclude one organization, and the others must not wait behind all its designs.
+/// Sorts designs by their rough cost, after the cheapest one of each organization: a limit on a
+/// unit may exclude one organization, and the others must not wait behind all its designs.
 fn sort_by_rough_cost(designs: &mut [(&ExaminedCamera, Design)], cost_model: RoughCostModel) {
     designs.sort_by(|(_, one), (_, other)| cost_model.cost(one).total_cmp(&cost_model.cost(other)));
     let firsts = Organization::ALL

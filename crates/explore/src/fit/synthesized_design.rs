@@ -19,15 +19,16 @@ pub(super) struct SynthesizedDesign {
     pub(super) examined: ExaminedCamera,
     pub(super) design: Design,
     pub(super) clocks_per_frame: u64,
-    /// The speed at the clock of the request, or at the highest clock in the process, if that is lower or none
-    /// was requested; without both, at the clock that is estimated for the FPGA.
+    /// The speed at the clock of the request, or at the highest clock in the process, if that is
+    /// lower or none was requested; without both, at the clock that is estimated for the FPGA.
     pub(super) speed: Option<FrameRate>,
     pub(super) silicon: DesignArea,
     /// The cost in the process, if there is one.
     pub(super) process: Option<ProcessFigures>,
     /// The report of the process, from which its energy can be measured.
     pub(super) report: Option<SiliconReport>,
-    /// All constraints, with the figures of this design. A power that was not measured is not known.
+    /// All constraints, with the figures of this design. A power that was not measured is not
+    /// known.
     pub(super) checks: Vec<ConstraintCheck>,
     /// The cost by which designs are chosen.
     pub(super) objective: CostObjective,
@@ -77,8 +78,8 @@ impl SynthesizedDesign {
         }
     }
 
-    /// Returns true if the energy may decide: the design exceeds no limit except that on power, or one more,
-    /// which is binding if the power meets its limit.
+    /// Returns true if the energy may decide: the design exceeds no limit except that on power, or
+    /// one more, which is binding if the power meets its limit.
     pub(super) fn is_decided_by_energy(&self, request: &FitRequest<'_>) -> bool {
         let exceeded = self.checks.iter().filter(|check| !check.holds).count();
         match request.constraints.max_mw {

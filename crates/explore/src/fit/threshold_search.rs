@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The thresholds with which a camera is nearest to the limits on its decisions. Thresholds cost no
-//! area, so every camera is judged with its best ones.
+//! The thresholds with which a camera is nearest to the limits on its decisions
+//! ([`ThresholdSearch`]). Thresholds cost no area, so every camera is judged with its best
+//! ones.
 //!
-//! The levels of pixels are found by a descent: from some start, the search goes to the best of the
-//! levels around it as long as that is better. For each set of levels the best minima follow from one
-//! run over the frames ([`ThresholdRun`]), unless scores depend on decisions; then minima are steps
-//! of the descent, too. A run ends early when no minima can meet the limit on flips any more.
-//!
-//! The run of a camera over the searched frames, and its best minima. The scaling of
-//! thresholds, as if the contrast of the scene were scaled.
+//! The levels of pixels are found by a descent: from some start, the search goes to the best of
+//! the levels around it as long as that is better. For each set of levels the best minima
+//! follow from one run over the frames ([`ThresholdRun`]), unless scores depend on decisions;
+//! then minima are steps of the descent, too. A run ends early when no minima can meet the
+//! limit on flips any more. All thresholds together are scaled as if the contrast of the scene
+//! were ([`scale_thresholds`]).
 
 use super::constraints::{ConstraintCheck, Constraints, all_met};
 use super::decision_rates::{DecisionGroups, FRAME_GROUPS};
@@ -44,8 +44,8 @@ pub(super) struct ThresholdChoice {
     pub(super) config: CameraConfig,
     /// The constraints on the rates to expect of other frames.
     pub(super) checks: Vec<ConstraintCheck>,
-    /// The share of flips that no minima can be below, if the run ended early; it exceeds the limit, and there
-    /// are no constraints.
+    /// The share of flips that no minima can be below, if the run ended early; it exceeds the
+    /// limit, and there are no constraints.
     pub(super) least_flips: Option<f64>,
     /// The distance from the limits: the largest ratio of a rate and its limit.
     pub(super) distance: f64,
@@ -88,8 +88,8 @@ impl<'a> ThresholdSearch<'a> {
         Self { frames, constraints, limits, compared: 0 }
     }
 
-    /// Returns the nearest thresholds of each camera, the best ones first. Its descent begins at the
-    /// best of some starts. The list is empty where no start is valid.
+    /// Returns the nearest thresholds of each camera, the best ones first. Its descent begins at
+    /// the best of some starts. The list is empty where no start is valid.
     pub(super) fn run(
         &mut self,
         starts: Vec<Vec<CameraConfig>>,
@@ -164,8 +164,8 @@ impl<'a> ThresholdSearch<'a> {
         count_to_f64(area) / count_to_f64(self.frames.areas[0].active.all.max(1))
     }
 
-    /// Returns the nearest minima of a run, the best ones first, and the number of cameras that were
-    /// compared.
+    /// Returns the nearest minima of a run, the best ones first, and the number of cameras that
+    /// were compared.
     fn nearest(&self, run: &ThresholdRun) -> (Vec<ThresholdChoice>, usize) {
         let sides = (self.frames.ideal.region_size(), run.camera.region_size());
         let within = |bound| DecisionLimits { prefers_active_below: bound, ..self.limits };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A clip that is read once: every camera sees its frames, and they go to a file for the
-//! codecs. Numbers of frames as ranges, for people.
+//! A clip that is read once ([`read_clip`]): every camera sees its frames, and they go to a
+//! file for the codecs.
 
 use crate::link::error::scratch_error;
 use crate::link::sweep::{SweptDesign, swept_designs};

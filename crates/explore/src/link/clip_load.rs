@@ -2,8 +2,8 @@
 //! The load of one design over one clip: the clock that the generated array needs, and its figures
 //! on a link, without any other sender.
 //!
-//! The clip is read once for the times of its frames and for the values that are sent. A raster core
-//! reads it again, because its clocks depend on the times of all frames. No frame is kept.
+//! The clip is read once for the times of its frames and for the values that are sent. A raster
+//! core reads it again, because its clocks depend on the times of all frames. No frame is kept.
 
 use foveate_design::{Design, Hardware};
 use foveate_engine::Engine;
@@ -65,8 +65,8 @@ impl ClipLoad {
     /// depth of the design. The clip must be one that can be opened twice.
     ///
     /// # Errors
-    /// Fails if the clip cannot be read, has fewer than two frames, has no order or no rising times,
-    /// if the design has another size or sends no pixels, or if `monitor` cancels.
+    /// Fails if the clip cannot be read, has fewer than two frames, has no order or no rising
+    /// times, if the design has another size or sends no pixels, or if `monitor` cancels.
     pub fn measure(
         (clips, number): (&RunClips, usize),
         design: &Design,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The comparison: every clip goes through the cameras, and then through the codecs at equal
-//! quality. The search for the coarsest quantizer that is good enough, by bisection: quality
-//! falls as the quantizer rises.
+//! The comparison ([`compare`]): every clip goes through the cameras, and then through the
+//! codecs at equal quality. A codec gets the coarsest quantizer that is good enough
+//! ([`coarsest_quantizer`]), which is found by bisection, because quality falls as the
+//! quantizer rises.
 
 use crate::link::clip::{ClipResults, SweptResult, read_clip};
 use crate::link::encoder::check_encoders;

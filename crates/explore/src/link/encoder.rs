@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A clip that goes through a codec and back: the bytes of every frame, as ffprobe finds them
-//! in the stream, and the quality of the decoded frames. The codecs that are compared, and
-//! their options for ffmpeg. Frames are grey. A constant quantizer and one thread give the same
-//! bytes for the same frames. There are no B frames and no look-ahead, so that a frame leaves
-//! before the next one comes. Supplemental messages (SEI) are removed from the stream. The
-//! quality of a receiver's frames compared with the original.
+//! A clip that goes through a codec and back ([`ClipEncoder`]): the bytes of every frame, as
+//! ffprobe finds them in the stream, and the [`Quality`] of the decoded frames.
+//!
+//! The options of ffmpeg make a [`Codec`] as comparable as possible. Frames are grey. A
+//! constant quantizer and one thread give the same bytes for the same frames. There are no B
+//! frames and no look-ahead, so that a frame leaves before the next one comes. Supplemental
+//! messages (SEI) are removed from the stream.
 
 use crate::link::error::scratch_error;
 use crate::link::{GreyFootage, LinkError};

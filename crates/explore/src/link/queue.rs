@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A link with one rate behind a buffer that loses nothing, in integers. Bits leave in the
-//! order in which they came, one after the other, at the rate of the link. Framing and the
-//! length of the link take no time. The link as the sink of a raster core, without a buffer
-//! between them. The times at which the sensor reads pixels: it reads the rows of a frame one
-//! after the other, evenly over the time until the next frame begins. The variation of a rate:
-//! bits are counted in windows of one length, one after the other from the first frame on.
+//! A link with one rate, in integers of bits and nanoseconds ([`send_over_link`]). In front of
+//! it is a buffer that loses nothing: bits leave in the order in which they came, one after the
+//! other. Framing and the length of the link take no time. Without the buffer, the link is the
+//! sink of a raster core ([`link_sink`]).
+//!
+//! Bits come at times that follow from the sensor, which reads the rows of a frame one after
+//! the other, evenly over the time until the next frame begins ([`Timeline`]). The variation of
+//! their rate is seen in windows of one length, one after the other from the first frame on
+//! ([`WindowRates`]).
 
 use crate::link::{LinkError, LinkUnit};
 use foveate_timed::SinkPattern;
@@ -97,8 +100,8 @@ impl Timeline {
     /// microseconds.
     ///
     /// # Errors
-    /// Fails if there are fewer than two frames, if a frame does not begin after the one before, or if
-    /// the clip lasts more than 2^63 - 1 ns.
+    /// Fails if there are fewer than two frames, if a frame does not begin after the one before, or
+    /// if the clip lasts more than 2^63 - 1 ns.
     pub fn new(clip: &str, times_us: &[u64], rows: u32) -> Result<Self, LinkError> {
         let (&[first, ..], &[.., last]) = (times_us, times_us) else {
             return Err(LinkError::TooFewFrames { clip: clip.to_owned(), frames: 0 });

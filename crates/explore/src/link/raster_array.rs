@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A raster core between the sensor and the link, over a clip.
+//! A raster core between the sensor and the link, over a clip ([`RasterArray`]).
 //!
-//! Three timed models of the core take the frames beside each other. Two of them have a sink that
-//! takes a word at every clock, as the buffer in front of the link does: one at the clock of the
-//! core, and one at a clock so fast that the core takes no time. So the clocks of the core can be
-//! counted, or left out. The third model has the link itself as its sink.
-//!
-//! The clock of a raster core: the edges that belong to times of a clip.
+//! Three timed models of the core take the frames beside each other. Two of them have a sink
+//! that takes a word at every clock, as the buffer in front of the link does: one at the clock
+//! of the core ([`FrequencyClock`]), and one at a clock so fast that the core takes no time
+//! ([`RowClock`]). So the clocks of the core can be counted, or left out. The third model has
+//! the link itself as its sink.
 
 use super::queue::link_sink;
 use super::report::RowRecord;

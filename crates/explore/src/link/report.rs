@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The report of a comparison, as it is in the JSON file. The edges at which the output of each
-//! row of regions leaves a raster core, and the regions that are lost. The report as Markdown,
-//! for people. A kB is 1000 bytes. Charts of bytes against quality: for the design's thresholds
-//! and the codecs' quantizers.
+//! The report of a comparison ([`LinkReport`]): as it is in the JSON file, as Markdown for
+//! people, where a kB is 1000 bytes, and as charts of bytes against quality ([`charts`]), for
+//! the design's thresholds and the codecs' quantizers. A [`RowRecord`] collects what it says
+//! about a raster core: the edges at which each row of regions leaves, and the regions that are
+//! lost.
 
 use crate::link::{LinkFigures, Quality, UnbufferedFigures};
 use foveate_design::Design;

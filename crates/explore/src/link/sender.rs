@@ -115,8 +115,8 @@ impl<'a> SenderCameras<'a> {
         }
     }
 
-    /// Returns the most clocks that an array that takes whole frames, or that works by rows, adds to
-    /// a time after the pixels that it waits for have been read.
+    /// Returns the most clocks that an array that takes whole frames, or that works by rows, adds
+    /// to a time after the pixels that it waits for have been read.
     fn added_clocks(&self) -> u64 {
         let DepartureTiming { take_clocks, decision_clocks, forward_clocks, slot_clocks, .. } =
             self.departure;

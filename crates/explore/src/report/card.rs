@@ -98,7 +98,8 @@ pub(crate) fn mark_title(row: &DesignRow, settings: &PointSettings) -> String {
 }
 
 impl DesignRow {
-    /// Returns the figures of the decisions in a line, and the speed and the known costs in another one.
+    /// Returns the figures of the decisions in a line, and the speed and the known costs in another
+    /// one.
     #[must_use]
     pub fn figure_lines(&self) -> [String; 2] {
         let figures = &self.figures;

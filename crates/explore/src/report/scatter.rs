@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The plots of error against speed, area and bytes, with a mark for every point of the
-//! exploration. The colours of points: one grouping for each axis. The page shows one grouping
-//! at a time.
+//! The plots of error against speed, area and bytes ([`plots`]), with a mark for every point of
+//! the exploration. The colour of a mark comes from a [`PointGrouping`], one for each axis, of
+//! which the page shows one at a time.
 
 use super::setting::{PointSettings, axes_set};
 use crate::objective::{BetterDirection, FrontObjectives, Objective, unbeaten_rows};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The points as rows of a table: columns of `points.csv` with headings for people. The setup
-//! and the findings of an exploration in a few lines.
+//! An exploration in words and numbers: the columns of `points.csv` with headings for people
+//! ([`columns_and_rows`]), and above them the setup and the findings in a few lines
+//! ([`facts`]).
 
 use super::setting::{PointSettings, axes_set};
 use crate::link::LinkRate;
@@ -11,7 +12,8 @@ use foveate_output::page::{HeadingFigure, TableCell, TableColumn, TableRow};
 use foveate_output::tables::{NamedCells, TableCell as FileCell};
 use std::collections::HashMap;
 
-/// The figures, a line each: a column of `points.csv`, the heading, its unit, the form of the number, and its meaning.
+/// The figures, a line each: a column of `points.csv`, the heading, its unit, the form of the
+/// number, and its meaning.
 const FIGURES: &str = include_str!("../../templates/figures.txt");
 
 /// The cells of a point by the columns of `points.csv`.
@@ -19,8 +21,8 @@ type PointFigures = HashMap<String, FileCell>;
 
 struct FigureColumn {
     key: &'static str,
-    /// The form of the number: `percent`, `millions`, or digits after the point. `decibels` of equal frames are not
-    /// known, and `on_clip` adds the worst clip to the percentage.
+    /// The form of the number: `percent`, `millions`, or digits after the point. `decibels` of
+    /// equal frames are not known, and `on_clip` adds the worst clip to the percentage.
     form: &'static str,
     heading: TableColumn,
 }

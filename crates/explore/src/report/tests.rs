@@ -246,7 +246,8 @@ fn large_marks_are_those_that_no_full_mark_beats_on_the_picture() {
     }
 }
 
-/// The ends of a front with more than eight points, and six points between them, are numbered, and each has a line below.
+/// The ends of a front with more than eight points, and six points between them, are numbered, and
+/// each has a line below.
 #[test]
 fn numbered_points_have_lines_and_hollow_ones_are_on_no_front() {
     let mut sample = sample_exploration(GRID, true);

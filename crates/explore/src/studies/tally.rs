@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The sums over the frames of a clip. Spearman's rank correlation.
+//! The statistics of a clip in studies: the sums over its frames ([`RegionTally`]), and
+//! Spearman's rank correlation of its regions ([`spearman`]).
 
 use crate::studies::number::count_votes;
 use crate::studies::runner::FrameResult;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The sources of a design's flips, against runs of cameras that are written out here, and against clips that
-//! can be counted by hand.
+//! The sources of a design's flips, against runs of cameras that are written out here, and against
+//! clips that can be counted by hand.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -35,8 +35,8 @@ fn row<'a>(found: &'a DisturbedDesign, source: &str) -> &'a ErrorSourceRow {
 const FRAMES: u32 = 16;
 const TASK: &str = "frame = { width = 96, height = 64 }\nspatial = [{ feature = 'edge' }, { feature = 'mad' }]\n\
      temporal.reference = 'last-sent'\n";
-/// The values of the design in place of the task's bits, windows, filter, level and minimum of `edge`, minimum and
-/// fraction bits of `mad`, level, count and reference.
+/// The values of the design in place of the task's bits, windows, filter, level and minimum of
+/// `edge`, minimum and fraction bits of `mad`, level, count and reference.
 const DESIGN: [&str; 10] = ["5", "isolated", "none", "11", "6", "0.7", "0", "2", "4", "'previous'"];
 
 fn design_with(changes: &[(usize, &str)]) -> String {
@@ -51,7 +51,8 @@ fn design_with(changes: &[(usize, &str)]) -> String {
     )
 }
 
-/// Returns the number of flipped regions of a camera in the first frames of street, times a constant.
+/// Returns the number of flipped regions of a camera in the first frames of street, times a
+/// constant.
 fn flips(design: &str, frames: u32) -> f64 {
     let options = InputOptions { frames: Some(frames), ..InputOptions::default() };
     let task = config(TASK);
@@ -108,7 +109,8 @@ fn a_design_that_is_the_task_has_no_sources() {
     }
 }
 
-/// Writes two frames of two regions of 8x8 pixels; `pixel` gives those at a column and row of a region.
+/// Writes two frames of two regions of 8x8 pixels; `pixel` gives those at a column and row of a
+/// region.
 fn write_frames(folder: &Path, pixel: impl Fn([usize; 2], (usize, usize)) -> u8) {
     fs::create_dir(folder).unwrap();
     for number in 0..2 {
@@ -119,9 +121,10 @@ fn write_frames(folder: &Path, pixel: impl Fn([usize; 2], (usize, usize)) -> u8)
     }
 }
 
-/// At 5 bits the thresholds of the task are 1.5 and 2.5. The left region changes by 2, which is more than 1.5,
-/// and the right one has a range of 2, which is less than 2.5. So with them the decisions are those of the
-/// ideal, and the nearest whole numbers, 2 and 2, as well as 1 and 2 or 2 and 3, would make others.
+/// At 5 bits the thresholds of the task are 1.5 and 2.5. The left region changes by 2, which is
+/// more than 1.5, and the right one has a range of 2, which is less than 2.5. So with them the
+/// decisions are those of the ideal, and the nearest whole numbers, 2 and 2, as well as 1 and 2 or
+/// 2 and 3, would make others.
 #[test]
 fn thresholds_are_not_rounded() {
     let dir = tempfile::tempdir().unwrap();
@@ -143,11 +146,12 @@ fn thresholds_are_not_rounded() {
         found.sources.iter().map(|row| row.flips.unwrap()).collect()
     };
     assert_eq!(shares(&found), [0.0, 0.0, 0.0, 0.75, 0.0, 0.0, 0.0]);
-    // With two groups, 1 and 0.5 without one of them, t is 6.314, so the interval is wider than all shares.
+    // With two groups, 1 and 0.5 without one of them, t is 6.314, so the interval is wider than all
+    // shares.
     assert_eq!(row(&found, "thresholds").interval, Some([-1.0, 1.0]));
 
-    // Around a bright pixel there are eight gradients of 14 at 5 bits, which is more than 108 / 8 = 13.5 and not
-    // more than the nearest whole level, 14.
+    // Around a bright pixel there are eight gradients of 14 at 5 bits, which is more than 108 / 8 =
+    // 13.5 and not more than the nearest whole level, 14.
     let dots = dir.path().join("dots");
     write_frames(&dots, |_, place| if place == (4, 4) { 120 } else { 64 });
     let [own, task] = [(5, "'edge', level = 14"), (8, "'edge', level = 108")]

@@ -119,8 +119,8 @@ impl RunHooks for SynthesisWatch<'_> {
     }
 }
 
-/// Each design has the clock of its own netlist, unless the space gives a clock. Page and tables have the errors before
-/// the first synthesis begins.
+/// Each design has the clock of its own netlist, unless the space gives a clock. Page and tables
+/// have the errors before the first synthesis begins.
 #[test]
 fn a_point_has_the_clock_of_its_netlist() {
     if !require_tools(&[Tool::Yosys]) {

@@ -157,8 +157,8 @@ fn the_clocks_of_a_core_are_left_out_and_stated() {
     }
 }
 
-/// A row has 64 words and 16 regions. The pixels of region 0 are out before the last decision of its
-/// row.
+/// A row has 64 words and 16 regions. The pixels of region 0 are out before the last decision of
+/// its row.
 #[test]
 fn pixels_may_leave_before_the_last_decision_of_their_row() {
     let design = design(&[VARIANCE, NO_MEDIAN, "frame.width=64"]);

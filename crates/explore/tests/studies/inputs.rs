@@ -120,9 +120,9 @@ fn a_sensor_that_sees_the_same_correlates_fully() {
     assert!(refused.contains("line 2") && refused.contains("events.csv"), "{refused}");
 }
 
-/// Writes four frames of three regions of 8x8 pixels, of which the left one changes in every frame, the
-/// middle one once, and the right one never. `before` columns lie at their left, and every pixel is
-/// `scale` pixels wide and high.
+/// Writes four frames of three regions of 8x8 pixels, of which the left one changes in every frame,
+/// the middle one once, and the right one never. `before` columns lie at their left, and every
+/// pixel is `scale` pixels wide and high.
 fn write_frames(folder: &Path, before: usize, scale: usize) {
     for (frame, values) in [[0, 0, 0], [200, 200, 0], [0, 200, 0], [200, 200, 0]].iter().enumerate()
     {

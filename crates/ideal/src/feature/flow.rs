@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `flow`: the mean difference from the reference as it stands, minus that at the displacement where
-//! it is smallest, in grey levels. Only pixels of the region and of its own reference are compared.
+//! `flow`: the mean difference from the reference as it stands, minus that at the displacement
+//! where it is smallest, in grey levels. Only pixels of the region and of its own reference are
+//! compared.
 
 use std::ops::Range;
 
@@ -50,8 +51,8 @@ impl MatchingCost {
     }
 
     /// Returns by how much the mean error E(d) / n(d) of another displacement is larger. It is one
-    /// quotient and not the difference of two, so that a score that equals the minimum is not rounded
-    /// below it.
+    /// quotient and not the difference of two, so that a score that equals the minimum is not
+    /// rounded below it.
     fn gain_over(&self, other: &Self) -> f64 {
         (other.sum * self.pairs - self.sum * other.pairs) / (other.pairs * self.pairs)
     }

@@ -42,7 +42,8 @@ pub(crate) fn scripts() -> impl Strategy<Value = ChangeScript> {
 
 /// Returns cameras with shared windows. With `rounded` they may have a mean with any fraction bits,
 /// and odd sides, and `flow`, whose score is rounded down. Without it, cameras with a mean have a
-/// side that is a power of two and an exact mean. No camera has the filter `binomial3x3`, which always rounds.
+/// side that is a power of two and an exact mean. No camera has the filter `binomial3x3`, which
+/// always rounds.
 pub(crate) fn cameras(rounded: bool) -> impl Strategy<Value = Camera> {
     let sides =
         if rounded { vec![2, 3, 4, 5, 7, 8, 9] } else { vec![2, 3, 4, 6, 7, 8, 16, 32, 64] };

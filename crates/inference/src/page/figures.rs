@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Figures in the format of the page, and the figures of its heading. The charts as plots of
-//! the page: the same lines, with a mark for every point that shows its figures. Frames on the
-//! receiver's screen, with the detections in them and in whole frames.
+//! The figures of a run in the form in which the page shows them: as numbers with units, in the
+//! heading ([`heading_facts`]), as plots with a mark for every point that tells its figures
+//! ([`plot`]), and as pictures of the receiver's screen with the detections in them and in
+//! whole frames ([`frame_pictures`]).
 
 use crate::charts::ChartWithIds;
 use crate::whole_frames::{KeptScreen, KeptScreens};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The setup and the findings of a run in sentences. The command line in a form that a shell
-//! reads.
+//! The page in words: the setup of a run ([`run_sentences`]), its findings ([`findings`]), and
+//! the command line in a form that a shell reads ([`shell_command`]).
 
 use super::figures::{
     bytes_text, decibels_text, error_text, large_count_text, mean_bytes_text, millijoules_text,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The network on whole frames, which the network behind the camera is compared with. The
-//! frames with the most lost and added detections, as the receiver shows them.
+//! The network on whole frames, which the network behind the camera is compared with
+//! ([`WholeFrameComparison`]). The frames with the most lost and added detections are kept as
+//! the receiver shows them ([`KeptScreens`]).
 
 use super::noise::NoiseComparison;
 use super::precision::{ConfidenceIntervals, PrecisionCurve};

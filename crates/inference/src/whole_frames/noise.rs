@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Gaussian noise on frames, which is the same on every machine and with any number of threads.
+//! The agreement of a network with itself when whole frames get noise ([`NoiseComparison`]): an
+//! upper bound for the agreement behind a camera.
 //!
-//! A pixel becomes the nearest grey level to itself plus a normal variable, clamped to black and
-//! white. The step of a pixel is drawn from the exact probabilities of all steps with the bits of
-//! `fastrand` (wyrand), seeded by the number of the frame.
-//!
-//! The agreement of a network with itself when whole frames get noise: an upper bound for the
-//! agreement behind a camera.
+//! The noise is Gaussian ([`GaussianNoise`]), and the same on every machine and with any number
+//! of threads. A pixel becomes the nearest grey level to itself plus a normal variable, clamped
+//! to black and white. The step of a pixel is drawn from the exact probabilities of all steps
+//! with the bits of `fastrand` (wyrand), seeded by the number of the frame.
 
 use super::precision::ConfidenceIntervals;
 use fastrand::Rng;

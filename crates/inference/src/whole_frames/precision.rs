@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Average precision against ground truth.
+//! The quality of detections as shares: average precision against ground truth
+//! ([`PrecisionCurve`]), and how far shares of few things may be from those of all things
+//! ([`ConfidenceIntervals`]).
 //!
-//! Wilson's score interval: an interval for a share among all things, computed from the share among
-//! a few of them.
-//!
-//! E. B. Wilson, Probable Inference, the Law of Succession, and Statistical Inference, Journal of
-//! the American Statistical Association 22 (1927), pages 209 to 212. It assumes that the things are
+//! The intervals are Wilson's score intervals ([`wilson_interval`]): E. B. Wilson, Probable
+//! Inference, the Law of Succession, and Statistical Inference, Journal of the American
+//! Statistical Association 22 (1927), pages 209 to 212. They assume that the things are
 //! independent.
 
 use foveate_network::Network;

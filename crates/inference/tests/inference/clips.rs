@@ -62,8 +62,8 @@ fn a_run_over_clips_equals_runs_over_each_clip() {
     }
 }
 
-/// A clip with a single frame, which is not counted, takes a place among the frames of all clips. So
-/// the counted frames of three clips with 4, 1 and 4 frames are 1 to 3 and 6 to 8.
+/// A clip with a single frame, which is not counted, takes a place among the frames of all clips.
+/// So the counted frames of three clips with 4, 1 and 4 frames are 1 to 3 and 6 to 8.
 #[test]
 fn a_clip_with_a_single_frame_has_a_place_in_the_run() {
     let dir = tempfile::tempdir().unwrap();

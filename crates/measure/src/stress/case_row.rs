@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The rows of the table of cases. The depth of a run.
+//! The result of a case, a row of their table ([`CaseRow`]), and how long the case may take for
+//! it ([`RunDepth`]).
 
 use serde::Serialize;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The designs of the cases. Frames for single cases, and random numbers that are the same on
-//! every machine.
+//! The material of all cases: designs ([`design_matrix`]), frames ([`frame_from_fn`]), and
+//! random numbers that are the same on every machine ([`RandomNumbers`]).
 
 use foveate_camera::{
     Decimal, DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood, Payload,

@@ -160,7 +160,8 @@ fn scores_of_fewer_bits_are_scaled_up() {
     assert_eq!(observed.collect::<Vec<_>>(), expected);
 }
 
-/// A bar moves by a column, and a pixel changes: E(0) is 1290 over 64 pixels, and E(1, 0) is 10 over
+/// A bar moves by a column, and a pixel changes: E(0) is 1290 over 64 pixels, and E(1, 0) is 10
+/// over
 /// 56. The score is 1290/64 - 10/56 grey levels, 1278 + 4/7 64ths, and is rounded down to 1278/64.
 #[test]
 fn the_gain_of_a_displacement_is_rounded_down() {

@@ -94,8 +94,8 @@ impl BoxFile {
         self.format
     }
 
-    /// Reads the files of a YOLO folder for these images, so that a mistake is found before the frames
-    /// are read. Other formats have been read already.
+    /// Reads the files of a YOLO folder for these images, so that a mistake is found before the
+    /// frames are read. Other formats have been read already.
     ///
     /// # Errors
     /// Fails if a file cannot be read.
@@ -117,8 +117,8 @@ impl BoxFile {
         self.left_out.in_words(&self.path)
     }
 
-    /// Returns the number of boxes of frames behind this number, which is counted from 1. Boxes that
-    /// go by names belong to no frame behind another one.
+    /// Returns the number of boxes of frames behind this number, which is counted from 1. Boxes
+    /// that go by names belong to no frame behind another one.
     #[must_use]
     pub fn boxes_behind(&self, frame: u64) -> usize {
         match &self.entries {
@@ -138,8 +138,9 @@ impl BoxFile {
     /// Returns the boxes of a frame.
     ///
     /// # Errors
-    /// Fails if a file of a YOLO folder cannot be read, a name fits two images, an image has another
-    /// size than the file states, or an image has the number 0 although frames are numbered from 1.
+    /// Fails if a file of a YOLO folder cannot be read, a name fits two images, an image has
+    /// another size than the file states, or an image has the number 0 although frames are numbered
+    /// from 1.
     pub fn boxes_of_frame(&self, place: &FrameKey<'_>) -> Result<FrameBoxes, BoxError> {
         match &self.entries {
             BoxEntries::Numbers(frames) => Ok(frames.get(&self.frame_number(place)?).cloned()),

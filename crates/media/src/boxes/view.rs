@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The transformation from the frame that a box file describes to the frame that a camera sees:
-//! first cropped, then scaled. An object in a frame, as a box file describes it.
-//!
-//! The regions that belong to a box.
+//! The way from a box in a file to regions. A [`BoxView`] transforms it from the frame that the
+//! file describes to the frame that a camera sees: first cropped, then scaled. A [`RegionGrid`]
+//! finds the regions that belong to it.
 //!
 //! A column of regions belongs to a box if at least half of the column's width lies between the
 //! left and the right side of the box. The same rule holds for rows. The regions of the box are
-//! those in its columns and its rows. So a box is rounded to whole regions, and regions that are
-//! mostly background do not count. If a narrow box covers no column by half, it has the column in
-//! which most of it lies, or the first of two equal ones. So every box has at least one region in
-//! each direction.
+//! those in its columns and its rows. So a box is rounded to whole regions, and regions that
+//! are mostly background do not count. If a narrow box covers no column by half, it has the
+//! column in which most of it lies, or the first of two equal ones. So every box has at least
+//! one region in each direction.
 
 use crate::{CropRect, FrameOrigin, SourceFrame};
 use foveate_pixels::Rect;

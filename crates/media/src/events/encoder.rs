@@ -22,7 +22,8 @@ enum FormatEncoder {
 }
 
 impl EventEncoder {
-    /// Makes an encoder for a sensor of `size` (width, height) pixels. Returns it with the header of the file.
+    /// Makes an encoder for a sensor of `size` (width, height) pixels. Returns it with the header
+    /// of the file.
     ///
     /// # Errors
     /// Fails if a side has more than [`EventFormat::max_side`] pixels.
@@ -43,12 +44,13 @@ impl EventEncoder {
         Ok((Self { encoder, size, last_us: 0 }, header))
     }
 
-    /// Appends the bytes of an event. In EVT 3.0 and AEDAT4 they may wait for the next events. An event that is
-    /// earlier than the last one gets the time of the last one, because a time cannot go back.
+    /// Appends the bytes of an event. In EVT 3.0 and AEDAT4 they may wait for the next events. An
+    /// event that is earlier than the last one gets the time of the last one, because a time cannot
+    /// go back.
     ///
     /// # Errors
-    /// Fails if the event is outside of the sensor. In EVT it fails if the event is more than 30 days after the last
-    /// one, or after 0, and in AEDAT4 if its time has more than 63 bits.
+    /// Fails if the event is outside of the sensor. In EVT it fails if the event is more than 30
+    /// days after the last one, or after 0, and in AEDAT4 if its time has more than 63 bits.
     pub fn push(&mut self, event: PixelEvent, bytes: &mut Vec<u8>) -> Result<(), EventFileError> {
         let (width, height) = self.size;
         if u32::from(event.x) >= width || u32::from(event.y) >= height {

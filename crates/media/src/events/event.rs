@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! An event of a pixel. The formats of files.
+//! An event of a pixel ([`PixelEvent`]), and the formats of files of such events
+//! ([`EventFormat`]).
 
 use std::fmt;
 
@@ -36,7 +37,8 @@ impl EventFormat {
     pub fn max_side(self) -> u32 {
         match self {
             Self::Evt2 | Self::Evt3 => 1 << 11,
-            // A coordinate has 16 bits with a sign, and so has the number of columns in some readers.
+            // A coordinate has 16 bits with a sign, and so has the number of columns in some
+            // readers.
             Self::Aedat4 => (1 << 15) - 1,
         }
     }

@@ -20,8 +20,8 @@ enum FormatReader<R> {
     Aedat4(Aedat4Reader<R>),
 }
 
-/// Returns true if a file with these first bytes may be in a format of this crate. A text whose first line is a
-/// comment, `# ...`, is not.
+/// Returns true if a file with these first bytes may be in a format of this crate. A text whose
+/// first line is a comment, `# ...`, is not.
 #[must_use]
 pub fn is_event_file(start: &[u8]) -> bool {
     start.first() == Some(&evt::HEADER_START) || start.starts_with(b"#!")
@@ -31,8 +31,8 @@ impl<R: BufRead> EventReader<R> {
     /// Reads the header of a file, from which its format follows.
     ///
     /// # Errors
-    /// Fails if the file cannot be read, has no header, or has another format than [`EventFormat::ALL`]; EVT is read
-    /// in little endian.
+    /// Fails if the file cannot be read, has no header, or has another format than
+    /// [`EventFormat::ALL`]; EVT is read in little endian.
     pub fn open(mut input: R) -> Result<Self, EventFileError> {
         let reader = match input.fill_buf()?.first() {
             Some(&evt::HEADER_START) => FormatReader::Evt(EvtReader::open(input)?),

@@ -35,8 +35,8 @@ pub(crate) fn expand(input: &Path, images: ImageRelation) -> Result<Vec<ImageFil
     }
 }
 
-/// Returns the name of numbered files, if an input that does not exist is one. A name in a folder that does not exist may be
-/// a pattern.
+/// Returns the name of numbered files, if an input that does not exist is one. A name in a folder
+/// that does not exist may be a pattern.
 pub(crate) fn sequence_of(input: &Path) -> Option<(&str, SequenceName)> {
     let text = input.to_str().filter(|_| !input.exists())?;
     let name = SequenceName::parse(text)?;

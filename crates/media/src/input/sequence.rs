@@ -20,8 +20,8 @@ pub(crate) struct SequenceName {
 }
 
 impl SequenceName {
-    /// Returns the name if a text has exactly one `%d`, `%4d` or `%04d`, in the name of the file. `%%` is a
-    /// percent sign.
+    /// Returns the name if a text has exactly one `%d`, `%4d` or `%04d`, in the name of the file.
+    /// `%%` is a percent sign.
     pub(crate) fn parse(text: &str) -> Option<Self> {
         let path = Path::new(text);
         let name = path.file_name()?.to_str()?;

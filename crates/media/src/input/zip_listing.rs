@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The images in a ZIP archive, in natural order. An archive is read as the folder that it was
-//! made of, whether that folder is an entry of the archive or not. The images of a ZIP archive
-//! as a feed.
+//! The images in a ZIP archive, in natural order ([`zip_images`]), as a list or as a feed
+//! ([`open_zip`]). An archive is read as the folder that it was made of, whether that folder is
+//! an entry of the archive or not.
 
 use super::content_kind::{ContentKind, content};
 use super::entry::is_hidden;
@@ -51,7 +51,8 @@ pub(super) fn open_archive(path: &Path) -> Result<OpenArchive, FootageError> {
     Ok(archive)
 }
 
-/// Returns the number of entries that the end of an archive states. The library keeps one entry of each name.
+/// Returns the number of entries that the end of an archive states. The library keeps one entry of
+/// each name.
 fn entry_count(path: &Path) -> Option<usize> {
     const RECORD: u64 = 22;
     const LONGEST_COMMENT: u64 = 0xFFFF;
@@ -157,8 +158,8 @@ pub(super) fn zip_images(
     Ok(listed)
 }
 
-/// The folder in an archive that stands for the archive itself: the deepest one in which all images lie. The folder
-/// of a set has the folders of its classes, and no images.
+/// The folder in an archive that stands for the archive itself: the deepest one in which all images
+/// lie. The folder of a set has the folders of its classes, and no images.
 struct ArchiveFolder {
     path: PathBuf,
 }
@@ -195,7 +196,8 @@ fn common_folder<'a>(mut paths: impl Iterator<Item = &'a Path>) -> PathBuf {
     common.to_owned()
 }
 
-/// Returns the entries of an archive that are not read although the user may have meant them. Another file has none.
+/// Returns the entries of an archive that are not read although the user may have meant them.
+/// Another file has none.
 pub(crate) fn skipped_of_zip(path: &Path, images: ImageRelation) -> Vec<SkippedInput> {
     let Some((archive, listed)) = listed_archive(path, images) else { return Vec::new() };
     let read: HashSet<usize> = listed.iter().map(|image| image.index).collect();

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The player of a clip: an iterator of its frames, which are read ahead. A frame that a player
-//! returned. When it is dropped, its memory goes back to the reader. A frame in every pixel
-//! depth that cameras need. The reading of a source on a separate thread, a few frames ahead of
-//! the work on them. Reading and work run in parallel, and memory is bounded. Buffers return to
-//! the source and are used again.
+//! The player of a clip ([`ClipPlayer`]): an iterator of frames that a separate thread reads, a
+//! few frames ahead of the work on them ([`FrameReader`]). Reading and work run in parallel,
+//! and memory is bounded. When a [`PlayedFrame`] is dropped, its memory goes back to the reader
+//! and is used again. Cameras of several depths see it as [`FrameDepths`].
 
 use crate::playback::PlaybackError;
 use crate::{

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The progress of a run: the stage of the run, the amount that is done, its rate, and the time
-//! that is left. The callbacks of a run: progress and cancellation.
+//! What a run tells its caller, and the caller to the run ([`RunHooks`]): its progress
+//! ([`RunProgress`]), and the wish to end it. A [`ProgressStage`] adds the rate and the time
+//! that is left.
 
 use foveate_tools::Interrupt;
 use std::borrow::Cow;

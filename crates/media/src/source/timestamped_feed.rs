@@ -24,8 +24,8 @@ impl TimestampedFeed {
     /// Gives a feed the times of a file.
     ///
     /// # Errors
-    /// Fails if the feed has times of its own, if the file cannot be read, or if it has another number of times
-    /// than the feed has frames.
+    /// Fails if the feed has times of its own, if the file cannot be read, or if it has another
+    /// number of times than the feed has frames.
     pub(crate) fn new(
         feed: Box<dyn FrameFeed>,
         file: TimestampsFile,
@@ -51,7 +51,8 @@ impl TimestampedFeed {
         }
     }
 
-    /// Ends a feed whose number of frames is not that of the times. The frames of a stream before it are kept.
+    /// Ends a feed whose number of frames is not that of the times. The frames of a stream before
+    /// it are kept.
     fn end_with(&mut self, problem: String) -> Result<Option<SourceFrame>, FootageError> {
         let error = self.file.refused(problem);
         if self.feed.is_stream() && self.entries.len() < self.count {

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The times of the frames of a video. A container may hold times that go back, as joined
-//! recordings do. The clock then goes on from the time before by the last step.
+//! The times of the frames of a video ([`VideoClock`]), and the late start at one of them
+//! ([`start`]). A container may hold times that go back, as joined recordings do. The clock
+//! then goes on from the time before by the last step.
 //!
-//! A late start in a long video without decoding everything before it. It is used only where it
-//! gives the same frames with the same times, bit for bit:
+//! A long video is started late without decoding everything before it only where that gives the
+//! same frames with the same times, bit for bit:
 //!
 //! * in MP4 and Matroska, which store the time of every frame. In other containers times are
 //!   counted from the beginning, or guessed;
-//! * where decoding starts with a frame on whose predecessors no later frame depends: any frame of
-//!   an intra-only codec, an IDR picture of H.264, an IRAP picture of H.265. Streams that refresh
-//!   their picture gradually have no such frame.
+//! * where decoding starts with a frame on whose predecessors no later frame depends: any frame
+//!   of an intra-only codec, an IDR picture of H.264, an IRAP picture of H.265. Streams that
+//!   refresh their picture gradually have no such frame.
 //!
-//! All other videos are decoded from the beginning, and the frames before the start are dropped,
-//! which is always right.
+//! All other videos are decoded from the beginning, and the frames before the start are
+//! dropped, which is always right.
 
 use super::decoder::{DecodingParameters, StartPosition, VideoDecoder};
 use super::probe::VideoProperties;
@@ -54,8 +55,8 @@ impl VideoClock {
         }
     }
 
-    /// Returns the time of the next frame, whose time in the container is `stated_us`. `frame` is its
-    /// number.
+    /// Returns the time of the next frame, whose time in the container is `stated_us`. `frame` is
+    /// its number.
     pub(super) fn time_us(&mut self, frame: u64, stated_us: i128) -> u64 {
         let last_us = self.last_us.unwrap_or(0);
         let mut time_us = stated_us + self.delay_us;
@@ -122,8 +123,8 @@ pub(super) fn start(
     probe: &VideoProperties,
     start_us: u64,
 ) -> Result<Option<SeekResult>, FootageError> {
-    // Recordings that were joined have the duration of the first one, or none. In them a time is that
-    // of several frames.
+    // Recordings that were joined have the duration of the first one, or none. In them a time is
+    // that of several frames.
     let is_within = probe.duration_s.is_some_and(|seconds| {
         Duration::try_from_secs_f64(seconds).is_ok_and(|all| all > Duration::from_micros(start_us))
     });

@@ -19,7 +19,8 @@ const PROBING_TIME: Duration = Duration::from_secs(5);
 pub(super) struct DecodingParameters {
     pub(super) found: LocatedTool,
     pub(super) medium: VideoMedium,
-    /// The names of the container, as ffprobe gives them. It is empty for a medium that was not probed.
+    /// The names of the container, as ffprobe gives them. It is empty for a medium that was not
+    /// probed.
     pub(super) container: String,
     /// The number of the stream among the video streams, from 0.
     pub(super) stream: usize,
@@ -146,8 +147,8 @@ impl VideoDecoder {
         Ok(None)
     }
 
-    /// Returns the next line of ffmpeg. A camera of the network that has sent no picture since `begin` for the longest
-    /// time ends the video, for which ffmpeg itself may take a minute.
+    /// Returns the next line of ffmpeg. A camera of the network that has sent no picture since
+    /// `begin` for the longest time ends the video, for which ffmpeg itself may take a minute.
     fn next_line(&mut self, begin: Instant) -> Result<Option<String>, ToolError> {
         let Some(limit) = self.silence_limit else { return self.stream.next_line() };
         match self.stream.next_line_within(limit.saturating_sub(begin.elapsed())) {
@@ -185,8 +186,8 @@ impl VideoDecoder {
         self.stream.read_exact(bytes)
     }
 
-    /// Returns the time from one frame to another in microseconds, which is below 0 if the other one
-    /// is earlier.
+    /// Returns the time from one frame to another in microseconds, which is below 0 if the other
+    /// one is earlier.
     pub(super) fn time_us(&self, first: i64, pts: i64) -> i128 {
         let (numerator, denominator) = self.log.time_base;
         let since = i128::from(pts) - i128::from(first);

@@ -5,9 +5,11 @@
 //!
 //! * what decoders say before decoding begins. ffmpeg then tries all streams, also sound, and
 //!   decodes the chosen one again afterwards;
-//! * what concerns neither samples nor references, such as EXIF data in an APP segment ([`ASIDES`]);
-//! * missing references before the first frame, if the stream was cut without being encoded anew. It
-//!   then begins with frames that are not shown ([`REFERENCES`]). Elsewhere they are a sign of loss.
+//! * what concerns neither samples nor references, such as EXIF data in an APP segment
+//!   ([`ASIDES`]);
+//! * missing references before the first frame, if the stream was cut without being encoded anew.
+//!   It then begins with frames that are not shown ([`REFERENCES`]). Elsewhere they are a sign of
+//!   loss.
 
 use super::pixel_formats::{SampleFormat, sample_format};
 use crate::MAX_SIDE;
@@ -51,7 +53,8 @@ const REFERENCES: [&str; 3] = [
 pub(super) struct FfmpegLog {
     /// The number of seconds per unit of time, as a fraction.
     pub(super) time_base: (u32, u32),
-    /// The name of the container, by which ffmpeg calls its reader. It is empty for a medium that was not probed.
+    /// The name of the container, by which ffmpeg calls its reader. It is empty for a medium that
+    /// was not probed.
     container: String,
     stage: DecodingStage,
     faults: u64,
@@ -120,7 +123,8 @@ impl FfmpegLog {
             .iter()
             .find_map(|level| line.text.strip_prefix(level))
             .or_else(|| line.text.strip_prefix("[warning] ").filter(of_corruption))?;
-        // The muxer of raw frames complains about missing times, which are not a fault of the video.
+        // The muxer of raw frames complains about missing times, which are not a fault of the
+        // video.
         let is_other = line.component == "rawvideo"
             || self.stage == DecodingStage::Probing && self.is_of_other_stream(line, said);
         // The program itself names files, whose names may be anything.
@@ -128,14 +132,15 @@ impl FfmpegLog {
         (!is_other && !is_aside).then_some(said)
     }
 
-    /// Returns true for what a decoder says, and for a packet of any stream, while all streams are looked at.
+    /// Returns true for what a decoder says, and for a packet of any stream, while all streams are
+    /// looked at.
     fn is_of_other_stream(&self, line: &LogLine<'_>, said: &str) -> bool {
         let is_of_decoder = !["", self.container.as_str()].contains(&line.component);
         !self.container.is_empty() && (is_of_decoder || said.starts_with("Packet corrupt"))
     }
 
-    /// Returns the fault that a reference was missing before the first frame. In a stream that was cut, it
-    /// belongs to frames that are not shown.
+    /// Returns the fault that a reference was missing before the first frame. In a stream that was
+    /// cut, it belongs to frames that are not shown.
     pub(super) fn missing_reference(&self) -> Option<String> {
         self.missing_reference.as_ref().map(|said| format!("ffmpeg reports: {said}"))
     }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The query of ffprobe before a video is decoded: its streams, container, codec and pixel
-//! format. The choice among the video streams of a file. Without a wish, it is the stream that
-//! players take: no attached picture, no single picture if there is a stream of several frames,
-//! and the stream that is marked as default, or else the first one. AVI files that end early.
-//! ffmpeg decodes the existing frames and reports nothing if the cut is between two frames. For
-//! other containers ffmpeg reports it.
+//! The query of ffprobe before a video is decoded ([`VideoProperties`]): its streams,
+//! container, codec and pixel format. Without a wish, the stream that players take is chosen
+//! ([`choose`]): no attached picture, no single picture if there is a stream of several frames,
+//! and the stream that is marked as default, or else the first one.
+//!
+//! AVI files that end early are noticed by their length ([`truncation_problem`]): ffmpeg
+//! decodes the existing frames and reports nothing if the cut is between two frames. For other
+//! containers it reports the cut.
 
 use super::{VideoMedium, formats};
 use crate::FootageError;
@@ -133,8 +135,9 @@ impl VideoProperties {
         })
     }
 
-    /// Returns true if black is 16 and white is 235, of 8 bits, in the luma of the stream. Grey formats have all
-    /// values, whatever range is stated, as in ffmpeg. Other streams that state no range have the narrow one.
+    /// Returns true if black is 16 and white is 235, of 8 bits, in the luma of the stream. Grey
+    /// formats have all values, whatever range is stated, as in ffmpeg. Other streams that state no
+    /// range have the narrow one.
     pub(super) fn has_narrow_range(&self) -> bool {
         let starts =
             |prefixes: &[&str]| prefixes.iter().any(|own| self.pixel_format.starts_with(own));
@@ -142,8 +145,8 @@ impl VideoProperties {
     }
 }
 
-/// Returns the turn of a display matrix, as ffprobe prints it: three lines of three numbers, of which 65536 is
-/// one.
+/// Returns the turn of a display matrix, as ffprobe prints it: three lines of three numbers, of
+/// which 65536 is one.
 fn turn_of_matrix(text: &str) -> Result<FrameTurn, String> {
     let rows = text.lines().filter_map(|line| line.split_once(':'));
     let numbers: Vec<i64> = rows
@@ -241,7 +244,8 @@ pub(super) struct StreamChoice {
 /// Chooses a stream of the file `name`.
 ///
 /// # Errors
-/// Fails if there is no video stream, or not the one that is wanted. The message says what there is.
+/// Fails if there is no video stream, or not the one that is wanted. The message says what there
+/// is.
 pub(super) fn choose(
     name: &str,
     streams: &[VideoStream],

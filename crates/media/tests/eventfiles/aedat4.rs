@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! AEDAT4: the bytes are those of the format's definition, files of other writers are read, and damaged files end with
-//! an error.
+//! AEDAT4: the bytes are those of the format's definition, files of other writers are read, and
+//! damaged files end with an error.
 
 use crate::{event, file, read, round_trip};
 use flatbuffers::{FlatBufferBuilder, field_index_to_field_offset as slot};
@@ -83,7 +83,8 @@ fn bytes_are_those_of_the_definition() {
     let mut content = Vec::new();
     let mut frame = lz4_flex::frame::FrameDecoder::new(&packets[8..]);
     std::io::Read::read_to_end(&mut frame, &mut content).unwrap();
-    // The length, the place of the root, the identifier, fields, and the vector, as iniVation's library writes them.
+    // The length, the place of the root, the identifier, fields, and the vector, as iniVation's
+    // library writes them.
     let start = [60_u32, 16, u32::from_le_bytes(*b"EVTS"), 6 << 16, 4 << 16 | 8, 6, 4, 2];
     let events = [65, 3 | 2 << 16, 1 << 40, 639 | 479 << 16 | 1 << 32];
     let expected: Vec<u8> = start
@@ -136,7 +137,8 @@ fn files_of_other_writers_are_read() {
         assert_eq!((reader.format(), reader.size()), (FORMAT, Some((9, 7))));
         assert_eq!(reader.map(Result::unwrap).collect::<Vec<_>>(), expected);
     }
-    // Without names, packets with events are those with their identifier, and the size is not known.
+    // Without names, packets with events are those with their identifier, and the size is not
+    // known.
     let other = packet(0, &content[..12].iter().map(|byte| byte ^ 1).collect::<Vec<u8>>());
     for streams in [None, Some(""), Some("<dv/>")] {
         let file = [header(0, None, streams), other.clone(), events.clone()].concat();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! EVT 2.0 and EVT 3.0: words are those of the format's definition, and damaged files end with an error.
+//! EVT 2.0 and EVT 3.0: words are those of the format's definition, and damaged files end with an
+//! error.
 
 use crate::{event, file, read, round_trip};
 use foveate_media::{EventEncoder, EventFormat, EventReader, PixelEvent};
@@ -31,7 +32,8 @@ fn words_are_those_of_the_definition() {
             0x1000_0000 | 2 << 22 | place(2047, 2047),
         ]
     );
-    // Row 2 has an event, then three for which a vector is shorter, and one in the vector behind it.
+    // Row 2 has an event, then three for which a vector is shorter, and one in the vector behind
+    // it.
     let row = [1, 20, 22, 31, 33].map(|x| event(x, 2, 4097, true));
     let events = [&row[..], &[event(5, 2, 4097, false), event(5, 3, 4099, false)]].concat();
     let expected = [

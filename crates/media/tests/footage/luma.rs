@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The range of luma: coded values by default, and on request those that other programs make of them.
+//! The range of luma: coded values by default, and on request those that other programs make of
+//! them.
 
 use std::fs;
 use std::path::Path;
@@ -59,7 +60,8 @@ fn the_full_range_is_that_of_ffmpeg() {
         assert!(largest_difference(&coded, &full) > 10);
         assert!(largest_difference(&full, &expanded_by_ffmpeg(path, "gray")) <= 1, "{path:?}");
     }
-    // More bits are expanded before they are cut. The white of ffmpeg is 1020 of 10 bits, and not 1023.
+    // More bits are expanded before they are cut. The white of ffmpeg is 1020 of 10 bits, and
+    // not 1023.
     let deep = of("deep.mkv", &["-c:v", "ffv1", "-pix_fmt", "yuv420p10le", "-t", "0.2"]);
     let full = pixels(&deep, 10, LumaRange::Full);
     let other = expanded_by_ffmpeg(&deep, "gray10le");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Marks that say how a frame stands upright: the EXIF orientation of images, and the display matrix of
-//! video.
+//! Marks that say how a frame stands upright: the EXIF orientation of images, and the display
+//! matrix of video.
 
 use std::fs;
 use std::path::Path;
@@ -30,8 +30,8 @@ fn exif(orientation: u8) -> Vec<u8> {
     [&b"II*\0\x08\0\0\0\x01\0"[..], &entry, &[0; 4]].concat()
 }
 
-/// Returns the frame that stands upright, by the definition of the orientations: the place of the stored row 0
-/// and the stored column 0 in the scene.
+/// Returns the frame that stands upright, by the definition of the orientations: the place of the
+/// stored row 0 and the stored column 0 in the scene.
 fn upright((width, height, pixels): &Pixels, orientation: u8) -> Pixels {
     let is_turned = orientation >= 5;
     let size = if is_turned { (*height, *width) } else { (*width, *height) };

@@ -130,7 +130,8 @@ fn a_set_in_an_archive_is_that_of_its_folder() {
         labels(&[("cat/1.pgm", IMAGE), ("cat/2.pgm", IMAGE)]),
         [found("1.pgm", Some("cat")), found("2.pgm", Some("cat"))]
     );
-    // Images without a label come first, deeper ones are left out, and a backslash may stand between folders.
+    // Images without a label come first, deeper ones are left out, and a backslash may stand
+    // between folders.
     let entries = [("a\\1.pgm", IMAGE), ("b.pgm", IMAGE), ("a/sub/2.pgm", IMAGE), ("z.pgm", IMAGE)];
     assert_eq!(
         labels(&entries),

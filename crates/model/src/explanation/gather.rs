@@ -158,7 +158,8 @@ impl SpatialExplanation {
 }
 
 impl DisplacementExplanation {
-    /// Adds the differences between the region and its reference to the displacement that was found.
+    /// Adds the differences between the region and its reference to the displacement that was
+    /// found.
     fn of(displacement: Displacement, view: &FrameRegion<'_>, radius: u32) -> Self {
         let errors = displaced_errors(view, radius);
         let sum_at = |wanted: Displacement| {

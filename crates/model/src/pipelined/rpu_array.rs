@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! RPUs that are clocked together: their stages in sequence. One RPU, which is an array with a
-//! single lane.
+//! RPUs that are clocked together: their stages in sequence ([`RpuArray`]). One RPU is an array
+//! with a single lane ([`PipelinedRpu`]).
 
 use super::pixel::{StagePixel, TailStep};
 use super::ports::{RpuInput, RpuOutput};

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The scores: the counters, and the registers that hold their values for one more frame with a
+//! From pixels to the decision: the scores of an RPU, and the relevance bits that follow from
+//! them.
+//!
+//! The counters ([`RpuScores`]) have registers that hold their values for one more frame with a
 //! second pass.
 //!
 //! ```text
@@ -10,8 +13,8 @@
 //! segment           ..      -     0 ..       segment(t)   0 ..
 //! ```
 //!
-//! Sums and extremes over the pixels of a region, for `mad`, `segment`, `variance`, `range` and
-//! `surface`.
+//! `mad`, `segment`, `variance`, `range` and `surface` need sums and extremes over the pixels
+//! of a region ([`RegionSums`]).
 //!
 //! ```text
 //! tail step                        0    1   ..  n-1   0 (next frame)
@@ -19,10 +22,7 @@
 //! mean, variance, range, surface   (of the frame before)  | of this frame
 //! ```
 //!
-//! The decision, which is combinational: it depends on the score ports and the thresholds of
-//! the clock.
-//!
-//! The temporal score, counted against both possible references.
+//! The temporal score is counted against both possible references ([`TemporalCounters`]).
 //!
 //! ```text
 //!                       frame t-1 active?   reference of frame t
@@ -31,8 +31,11 @@
 //! last-sent             no                  what was sent before it, if still valid
 //! ```
 //!
-//! Without a second pass the reference is known at the first tail step of frame t. With a second
-//! pass it is known when frame t is done, so both counts run.
+//! Without a second pass the reference is known at the first tail step of frame t. With a
+//! second pass it is known when frame t is done, so both counts run.
+//!
+//! The decision ([`RelevanceBits`]) is combinational: it depends on the score ports and the
+//! thresholds of the clock.
 
 use super::frame_store::RegionFrameStore;
 use super::pixel::TailStep;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The tail of an RPU: positions, scores, temporal score, decision, forwarding.
+//! The tail of an RPU ([`RpuTail`]): positions, scores, temporal score, decision, forwarding.
 //!
 //! ```text
 //! n = 4, no second pass
@@ -14,8 +14,8 @@
 //! With a second pass the decision after edge 8 is that of frame a, and its pixels leave while
 //! frame c comes in.
 //!
-//! The summaries of a region: the means of the last frames, the means that were sent, and the
-//! means that leave.
+//! An irrelevant region may send its means in place of pixels ([`TailSummary`]): the tail keeps
+//! the means of the last frames, the means that were sent, and the means that leave.
 
 use super::frame_store::RegionFrameStore;
 use super::pixel::{StagePixel, TailStep};
@@ -147,8 +147,8 @@ impl RpuTail {
         })
     }
 
-    /// Returns the class of the region in the frame that is decided in this clock, in which the frame
-    /// of the last tail step is complete.
+    /// Returns the class of the region in the frame that is decided in this clock, in which the
+    /// frame of the last tail step is complete.
     fn decided_class(&self, plan: &RpuParameters) -> RegionClass {
         if plan.second_pass { self.registers.class_before } else { self.registers.class }
     }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A window stage for either neighborhood.
+//! The stages of an RPU in front of its tail: each takes a pixel of every lane at a step, and
+//! gives what follows from the pixels around an earlier one, its center ([`WindowStage`]).
 //!
-//! A window stage of an isolated region: it takes n pixels and gives n centers, N + 1 advances
-//! later.
+//! A window stage of an isolated region ([`IsolatedWindow`]) takes n pixels and gives n
+//! centers, N + 1 advances later.
 //!
 //! ```text
 //! N = 2               one frame, silence        the next frame follows at once
@@ -13,12 +14,12 @@
 //! owed after           0  0  0  3  2  1  0      0  0  0  3  2  1  0  3
 //! ```
 //!
-//! When the last pixel of a frame has come, N + 1 centers are *owed*. They leave one at every edge
-//! (flush) until the next frame begins, and from then on one with every pixel. All have left before
-//! pixel N + 1 of the next frame comes.
+//! When the last pixel of a frame has come, N + 1 centers are *owed*. They leave one at every
+//! edge (flush) until the next frame begins, and from then on one with every pixel. All have
+//! left before pixel N + 1 of the next frame comes.
 //!
-//! A window stage of a shared region: it takes a square of side S and gives the centers that have
-//! all their neighbors.
+//! A window stage of a shared region ([`SharedWindow`]) takes a square of side S and gives the
+//! centers that have all their neighbors.
 //!
 //! ```text
 //! S = 4                row 2                       row 3
@@ -26,12 +27,11 @@
 //! center given           -     -   (1,1) (2,1)       -     -   (1,2) (2,2)
 //! ```
 //!
-//! A center leaves at the edge that takes the pixel below and to the right of it, so there is no
-//! flush.
+//! A center leaves at the edge that takes the pixel below and to the right of it, so there is
+//! no flush.
 //!
-//! The output of a window stage at a step: the window around a center, in all lanes at once.
-//!
-//! A line of registers: a value that enters at an edge leaves a fixed number of edges later.
+//! A value that enters a line of registers at an edge leaves a fixed number of edges later
+//! ([`DelayLine`]).
 //!
 //! ```text
 //! 2 registers       edge e    e+1    e+2
@@ -39,7 +39,7 @@
 //! leaves                 -      -      x
 //! ```
 //!
-//! The filter window with its registers: two of them, or three in a deep RPU.
+//! The filter window has two registers, or three in a deep RPU ([`FilterStage`]).
 //!
 //! ```text
 //! edge                          e         e+1        e+2
@@ -49,7 +49,8 @@
 //! next stage takes                                 denoised
 //! ```
 //!
-//! The values between the registers cannot be observed, so the model computes the filter at once.
+//! The values between the registers cannot be observed, so the model computes the filter at
+//! once.
 
 use super::pixel::StagePixel;
 use super::rpu_parameters::RpuParameters;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The position of the core in a frame: the word that each advance brings, and whether the next
-//! advance waits for the port. The padded frame as it comes in, word by word. Beyond the frame
-//! its last column and row are repeated.
+//! What comes into a core: the position of each word in its frame ([`AdvanceCounter`]), and the
+//! padded frame, word by word ([`IncomingFrame`]).
 
 use crate::region::black_padded_frame;
 use foveate_design::{RasterDesign, RasterTiming};

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The delay of decisions: a fixed number of clocks after the last word of a region has come to
-//! the tail, or after its second pass. A queue of events that follow others after a fixed
-//! number of clocks, with the edges at which they are due. The times at which the pixels of a
-//! region are overwritten. A row of regions is stale from the edge on at which the first word
-//! of the row B further down is stored.
+//! What happens to a region, or to a row of regions, a fixed number of clocks after its words
+//! have come ([`DueQueue`]). A decision follows the last word of a region at the tail, or its
+//! second pass ([`DecisionQueue`]). The pixels of a row of regions are overwritten from the
+//! edge on at which the first word of the row B further down is stored ([`RowStaleness`]).
 
 use crate::region_decision::RegionDecision;
 use foveate_camera::{RegionAction, RegionClass};
@@ -23,8 +22,8 @@ pub(super) struct CompletedRegion {
     pub(super) class: RegionClass,
 }
 
-/// A region of one frame with its scores and relevance bits, before its decision is on the ports. It
-/// is boxed, because it goes from queue to queue.
+/// A region of one frame with its scores and relevance bits, before its decision is on the ports.
+/// It is boxed, because it goes from queue to queue.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct ScoredRasterRegion {
     pub(super) region: u32,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The core: the effect of an edge on each of its parts, and the outputs after it. The state
-//! that the core keeps of every region from frame to frame, and its decisions.
+//! The core ([`RasterRcm`]): the effect of an edge on each of its parts, and the outputs after
+//! it. It keeps the state of every region from frame to frame, by which it decides
+//! ([`RasterRegions`]).
 
 use super::advances::{AdvanceCounter, IncomingFrame, WordPosition};
 use super::decisions::{

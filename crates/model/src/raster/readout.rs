@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The readout, by which the pixels or means of regions leave: the queue, the region that is
-//! held, the word that is fetched, and the word on the ports. The words of a region that
-//! leaves: its pixels, or the means of its blocks. The pixels of a word, stored without an
-//! allocation.
+//! The readout ([`Readout`]), by which the pixels or means of regions leave: the queue, the
+//! region that is held, the word that is fetched, and the word on the ports. A
+//! [`DepartingRegion`] leaves word by word; the pixels of a word are stored without an
+//! allocation ([`WordPixels`]).
 
 use super::decisions::{DecidedRasterRegion, ScoredRasterRegion};
 use crate::conversions::index;

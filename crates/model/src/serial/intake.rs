@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The pixels of a frame as they are taken, and the stream of each region. The buffer of `feed
-//! = "parallel"`: every lane takes the streams of its regions, one after the other. The buffer
-//! of `feed = "raster"`: the padded frame, pixel by pixel, from which the array makes the
-//! streams of all regions.
+//! The pixels of a frame as they are taken, and the stream of each region ([`FrameIntake`]).
+//! There is a buffer for each feed. With `feed = "parallel"`, every lane takes the streams of
+//! its regions, one after the other ([`LaneStreams`]). With `feed = "raster"`, the padded frame
+//! comes pixel by pixel, and the array makes the streams of all regions from it
+//! ([`RasterFeedFrame`]).
 
 use crate::conversions::index;
 use foveate_design::{PixelFeed, SerialDesign};

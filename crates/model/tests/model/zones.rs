@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Tests of zones: the functional model equals the oracle for every camera with zones, while the map
-//! changes between frames, and the consequences that the contract states.
+//! Tests of zones: the functional model equals the oracle for every camera with zones, while the
+//! map changes between frames, and the consequences that the contract states.
 
 use std::slice::from_ref;
 

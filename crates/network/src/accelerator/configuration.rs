@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The description of an accelerator, which is read from a TOML file. Named accelerators, whose
-//! files state the source of every figure.
+//! The description of an accelerator ([`Accelerator`]), which is read from a TOML file. Files
+//! of named accelerators come with the program, and state the source of every figure
+//! ([`PRESETS`]).
 
 use crate::accelerator::AcceleratorError;
 use serde::Deserialize;

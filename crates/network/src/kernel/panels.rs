@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Convolution at any set of positions: the inputs are gathered into panels, which are
-//! multiplied with the weights. Weights in the order in which the inner loop reads them.
+//! Convolution at any set of positions ([`convolve`]): the inputs are gathered into panels,
+//! which are multiplied with the weights. Those are stored in the order in which the inner loop
+//! reads them ([`PackedWeights`]).
 
 use super::blocking::BlockSizes;
 use super::chunks::{CHUNK_POSITIONS, PositionChunk};
@@ -33,8 +34,8 @@ pub(crate) struct ConvOutputs<'a, T = f32> {
     pub(crate) width: usize,
 }
 
-/// Computes the channels of `outputs` at the chunks, whose positions `outputs` holds. The activation
-/// is applied to every output.
+/// Computes the channels of `outputs` at the chunks, whose positions `outputs` holds. The
+/// activation is applied to every output.
 pub(crate) fn convolve(
     level: InstructionSet,
     picture: &ConvInput<'_>,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Element-wise operations on two tensors with broadcasting: an axis with one element is
-//! repeated. Maps the positions of an input to those of an output with other axes.
+//! Element-wise operations on two tensors with broadcasting ([`BinaryOperator`]): an axis with
+//! one element is repeated. So positions of an input are mapped to those of an output with
+//! other axes ([`aligned_mask`]).
 
 use super::{Operator, OperatorJob};
 use crate::activation::Activation;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Concatenation of tensors along an axis. Rearranges channels into blocks of neighboring
-//! positions (`DepthToSpace`) and back (`SpaceToDepth`).
+//! Operators that move the values of channels as they are: they join tensors along an axis
+//! ([`Concat`]), or move channels into blocks of neighboring positions ([`DepthToSpace`]) and
+//! back ([`SpaceToDepth`]).
 
 use super::binary_operator::{aligned_mask, broadcast_mask};
 use super::{Operator, OperatorJob, feature_size, moved_encoding, only_input};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Convolution with groups, strides, dilation and padding. The windows and channels of a
-//! convolution, independent of the type of its values.
+//! Convolution ([`Conv`]) with groups, strides, dilation and padding. Its windows and channels
+//! do not depend on the type of its values ([`ConvGeometry`]).
 
 use super::{Operator, OperatorJob, ProductKind, feature_size, only_input, output_values};
 use crate::activation::Activation;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The product of two matrices that both depend on the frame, as in attention. The product of
-//! the last axis of 8-bit values with a constant matrix of 8-bit values, as in fully connected
-//! layers. Products with a constant matrix, as in fully connected layers.
+//! Products of matrices: of two that depend on the frame, as in attention ([`MatrixProduct`]),
+//! and of the last axis with a constant matrix, as in fully connected layers, of floating-point
+//! values ([`Linear`]) or of 8-bit values ([`IntegerMatMul`]).
 
 use super::binary_operator::broadcast_shape;
 use super::integer_conv::ByteWeightRows;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Normalization: values less their mean, divided by their standard deviation. A factor and an
-//! offset per channel, which is batch normalization after training.
+//! Normalization: values less their mean, divided by their standard deviation
+//! ([`Normalization`]), or values divided by a power of a sum of squares
+//! ([`LocalResponseNorm`]). Batch normalization is a factor and an offset per channel after
+//! training ([`ChannelScale`]).
 
 use super::binary_operator::aligned_mask;
 use super::{Operator, OperatorJob, only_input, output_values};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Quantization of floating-point values to 8 bits, and dequantization. Requantization: the
-//! conversion of exact sums of products of 8-bit values to outputs. Functions of one 8-bit
-//! value as tables of 256 entries.
+//! Conversions between floating-point values, 8-bit values ([`Quantize`], [`Dequantize`]), and
+//! exact sums of products of 8-bit values ([`Requantization`]). Any function of one 8-bit value
+//! is a table of 256 entries ([`ByteTable`]).
 
 use super::{Operator, OperatorJob, only_input, wrong_element_message};
 use crate::activation::Activation;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Reductions of axes to a single value: global pooling, sums and norms, and the index of the
-//! largest value. The axes that a reduction removes or leaves with length 1.
+//! Reductions of axes to a single value: global pooling, sums and norms
+//! ([`ReductionOperator`]), and the index of the largest value ([`ArgMax`]). An axis is removed
+//! or keeps the length 1 ([`ReducedAxes`]).
 
 use super::binary_operator::aligned_mask;
 use super::{Operator, OperatorJob, only_input};

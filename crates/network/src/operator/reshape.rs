@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Reshaping: the values of a tensor in another shape. A constant tensor in the place of an
-//! input that depends on the frame.
+//! Operators that compute nothing: they give the values of a tensor in another shape
+//! ([`Reshape`], [`FeatureView`]), or a constant tensor in the place of an input that depends
+//! on the frame ([`ConstantTensor`]).
 
 use super::binary_operator::{aligned_mask, full_if};
 use super::{Operator, OperatorJob, ProductKind, moved_encoding, only_input, output_values};

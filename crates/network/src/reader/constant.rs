@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Constant tensors of a model. Decoding of the values of tensors in messages.
+//! Constant tensors of a model ([`Constant`]), with the decoding of their values in messages.
 
 use super::constant_values::ConstantValues;
 use super::model_folder::{ModelFolder, read_external_data};

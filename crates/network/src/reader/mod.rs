@@ -35,7 +35,8 @@ pub(crate) use arrays::read_for_arrays;
 pub use network_input::FrameSize;
 pub use operators::operators;
 
-/// Opens an input file. The executor runs in the browser, too, so the caller knows how files are opened.
+/// Opens an input file. The executor runs in the browser, too, so the caller knows how files are
+/// opened.
 pub type OpenFile = fn(&Path) -> io::Result<File>;
 
 /// The bytes of the largest file.

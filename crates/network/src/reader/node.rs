@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Access to a node for the readers of operators: attributes with their defaults, constants,
-//! and tensors. The outputs of a node, as they are read. The attributes of a node, with a
-//! record of which were read. Names of nodes, operators, inputs and outputs in a model.
+//! A node as the readers of operators see it ([`NodeReader`]): attributes with their defaults,
+//! constants, and tensors go in, and outputs come out ([`NodeOutput`]). [`NodeAttributes`]
+//! records which attributes were read, because one that no reader asks for may change what the
+//! node computes. Nodes, operators, inputs and outputs have names for messages ([`node_name`]).
 
 use super::constant::Constant;
 use super::model_folder::ModelFolder;

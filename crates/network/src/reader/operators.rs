@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The supported ONNX operators, and the function that reads each. Transposed convolution, with
-//! the size of its output as ONNX defines it.
+//! The supported ONNX operators, and the function that reads each ([`OPERATORS`]). Transposed
+//! convolution is read here ([`conv`]), with the size of its output as ONNX defines it.
 
 use super::constant::Constant;
 use super::node::{NodeOutput, NodeReader, checked_length, length_to_i64, output_of_tensors};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! ONNX operators that sum or reduce over windows, channels or axes. ONNX operators that
-//! normalize, including softmax.
+//! ONNX operators that sum or reduce over windows, channels or axes, also to normalize, as
+//! softmax does.
 
 use super::constant::Constant;
 use super::node::{

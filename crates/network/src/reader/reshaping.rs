@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! ONNX operators that only move values: reshaping, transposition and concatenation. ONNX
-//! operators that take parts of a tensor, or pad it. ONNX operators that change the height and
-//! width of features.
+//! ONNX operators that move values to other places and shapes: they reshape, transpose and
+//! concatenate, take parts of a tensor, pad it, or change the height and width of features.
 
 use super::constant::Constant;
 use super::constant_selection::slice_bounds;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Distances between the values of an output and the right values. The outputs of a network for
-//! a frame, and the detections in them.
+//! The outputs of a network for a frame: what is found in them ([`FrameFindings`]), and their
+//! distance from the right values ([`OutputDistance`]).
 
 use super::detection::Detection;
 use super::detection_format::OutputTensor;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A frame as the input of a network, with the positions that have changed. The conversion of
-//! pixels to the values that a network takes.
+//! A frame as the input of a network, with the positions that have changed ([`FrameInput`]). A
+//! [`PixelMapping`] converts pixels to the values that a network takes.
 
 use super::error::VisionError;
 use super::framing::FrameScaling;
@@ -107,8 +107,8 @@ impl FrameInput {
     /// Stores the next frame, and updates the input and its changed positions.
     ///
     /// # Panics
-    /// Panics if the frame does not have the size of the format. Without scaling it also panics if a
-    /// pixel is larger than the largest value of the format.
+    /// Panics if the frame does not have the size of the format. Without scaling it also panics if
+    /// a pixel is larger than the largest value of the format.
     pub fn set_frame(&mut self, frame: FramePixels<'_>) {
         match frame {
             FramePixels::Bytes(pixels) => self.update(pixels),

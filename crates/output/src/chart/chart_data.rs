@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The content of a chart. The colours of a chart, and the style that distinguishes one series
-//! from another. Formats numbers and names in a chart. The error of a chart.
+//! What a chart shows ([`Chart`]), and the look of it that does not depend on places: colours,
+//! the style that distinguishes one series from another ([`SeriesStyle`]), and the texts of
+//! numbers and names.
 
 use crate::palette::{Colour, LIGHT};
 use plotters::prelude::*;

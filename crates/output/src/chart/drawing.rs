@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Draws a chart for every backend: the series on their axes, the legend on the right, and the
-//! caption below. Draws groups of bars. The names of groups are below them: horizontal if there
-//! is room, else vertical. Draws the legend to the right of the plot: the names of series, each
-//! with its look. The axes of a chart: their ranges, labels and grid.
+//! The drawing of a chart for every backend ([`draw`]): the series or groups of bars on their
+//! axes, the legend on the right with the names of series and the look of each, and the caption
+//! below. The names of groups are below their bars: horizontal if there is room, else vertical.
 
 use super::chart_data::{
     BACKGROUND, DrawResult, GRID, INK, SECONDARY, SIZE, SeriesStyle, number_label, rgb,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A NumPy file (NPY 1.0) that grows frame by frame. Its header has room for any number of
-//! frames, and gets the real number at the end. The type of the values of an array.
+//! A NumPy file (NPY 1.0) that grows frame by frame ([`NpyWriter`]). Its header has room for
+//! any number of frames, and gets the real number at the end. The values of the array are of
+//! one [`ElementType`].
 
 use foveate_tools::{GrowingFile, StagingError};
 use std::path::Path;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The document of a page: its heading, style and script around its content. The error of a
-//! page. The colours of a page: those of the palette, as variables and as classes of lines and
-//! marks.
+//! The document of a page ([`ResultPage`]): its heading, style and script around its content.
+//! The style has the colours of the palette, as variables ([`colour_variables`]) and as classes
+//! of lines and marks ([`group_look`]).
 
 use crate::palette::{ChartStyle, Colour, DARK, LIGHT, SERIES};
 use crate::xml_text;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A table in memory, whose columns serve for CSV and Parquet. Tables as text.
+//! A table in memory, whose columns serve for CSV and Parquet ([`Table`]). Records without a
+//! table are written as CSV in the same way ([`csv_text`]).
 
 use super::{Column, ColumnType, ParquetWriter, TableValue};
 use std::fmt::Write as _;

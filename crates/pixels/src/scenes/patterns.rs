@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The hard cases that are a function of place and time. Random numbers without a state. They
-//! are hashes of (seed, a, b, c), so any frame can be made on its own.
+//! The hard cases, each a function of place and time ([`pattern_pixel`]), so any frame can be
+//! made on its own. So are the random numbers of all scenes: they are hashes of (seed, a, b, c)
+//! without a state ([`hash`]).
 
 use crate::scenes::{Scene, SceneParameters};
 

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The two element types of a pixel, and the types of their sums.
+//! A pixel in vector registers ([`VectorPixel`]): one of up to 8 bits is a byte, a wider one is
+//! a 16-bit word. The kernels are generic over both. Loops run over blocks of [`BLOCK_LENGTH`]
+//! elements, so that no loop has a remainder; in an [`AlignedBuffer`] each block lies in one
+//! cache line.
 //!
-//! A pixel of up to 8 bits is a byte, a wider one is a 16-bit word. The kernels are generic over
-//! both. Loops run over blocks of [`BLOCK_LENGTH`] elements, so that no loop has a remainder.
-//!
-//! FAST 5/8 as a network of minima and maxima.
-//!
-//! The score of an arc is the minimum of its five pixels, and the best arc has the largest of the
-//! eight minima. Two arcs that share four pixels have the maximum
-//! `min(four, max(pixel before, pixel after))`, so four groups of four pixels serve all eight arcs.
-//!
-//! Buffers that start at a cache line, so that each block lies in one cache line.
+//! FAST 5/8 is a network of minima and maxima of such pixels ([`best_arc`]). The score of an
+//! arc is the minimum of its five pixels, and the best arc has the largest of the eight minima.
+//! Two arcs that share four pixels have the maximum `min(four, max(pixel before, pixel
+//! after))`, so four groups of four pixels serve all eight arcs.
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, BitAnd, BitXor, Deref, DerefMut, Neg, Sub};
@@ -77,8 +74,8 @@ pub trait VectorPixel:
     fn square(self) -> Self::SquareSum;
     /// Returns 1 for true and 0 for false.
     fn from_hit(hit: bool) -> Self;
-    /// Returns a sixteenth of the sum, rounded to the nearest integer; a half is rounded up. It must
-    /// fit into the type.
+    /// Returns a sixteenth of the sum, rounded to the nearest integer; a half is rounded up. It
+    /// must fit into the type.
     fn rounded_sixteenth(sum: Self::ColumnSum) -> Self;
     /// Converts a number that fits into the type; higher bits would be cut off.
     fn from_low_bits(value: u32) -> Self;

@@ -17,7 +17,8 @@ use crate::support::{STREET, design, outcomes, run, street};
 /// A raster core whose regions are lost if its sink is slow.
 const RASTER: &str = "hardware.organization='raster'";
 
-/// A row of `clocks.csv`: event, frame, region, clock, last clock, first word, words, last, aborted.
+/// A row of `clocks.csv`: event, frame, region, clock, last clock, first word, words, last,
+/// aborted.
 type ClockRow = (String, [u64; 8]);
 
 fn options(clocks: ClockOptions) -> RunOptions {
@@ -116,7 +117,8 @@ fn a_slow_sink_delays_words_and_a_sink_that_takes_none_loses_regions() {
     // One word waits on the port. The last rows of regions are not overwritten any more.
     assert_eq!(rows_of(&rows, "loss").len() as u64, none.lost_regions);
     assert!(none.words == 1 && none.lost_regions > 20, "{none:?}");
-    // A list with one stall behind the first decision keeps the first word on the port, and delays the second.
+    // A list with one stall behind the first decision keeps the first word on the port, and delays
+    // the second.
     let stall = 0..rows_of(&rows, "decision")[0][2] + 40;
     let (rows, _) = simulate("late", SinkPattern::Stalls(vec![stall.clone()].into()));
     let words = rows_of(&rows, "pixels");

@@ -233,8 +233,8 @@ fn what_cannot_be_is_refused_with_both_sides() {
     assert!(refused(&newer, DESIGNS[0], &plain).contains("version 2"));
 }
 
-/// In a stream without scores the arrows of `flow` alone are as bright as in the simulation, because
-/// SRS is then the vote of `flow`.
+/// In a stream without scores the arrows of `flow` alone are as bright as in the simulation,
+/// because SRS is then the vote of `flow`.
 #[test]
 fn arrows_of_a_stream_without_scores_are_bright_where_regions_are_relevant() {
     let overrides = [

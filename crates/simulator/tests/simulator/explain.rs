@@ -72,8 +72,8 @@ fn difference(told: &RegionExplanation, (dx, dy): (isize, isize)) -> DifferenceS
 }
 
 /// Checks that the differences of `flow` are those from the reference that is shown, that no other
-/// displacement of at most two pixels has a smaller mean error, and that they give the score. Returns
-/// true if the content has moved.
+/// displacement of at most two pixels has a smaller mean error, and that they give the score.
+/// Returns true if the content has moved.
 fn check_displacement(told: &RegionExplanation, spatial: &SpatialExplanation) -> bool {
     let displacement = spatial.displacement.unwrap();
     let (dx, dy) = (displacement.displacement.dx.into(), displacement.displacement.dy.into());

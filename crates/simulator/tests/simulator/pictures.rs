@@ -26,7 +26,8 @@ fn pictures(folder: &Path, name: &str) -> Vec<RgbImage> {
     (0..5).map(picture).collect()
 }
 
-/// Sent regions are as bright as the frame, regions that are not sent are dark, and means are tinted.
+/// Sent regions are as bright as the frame, regions that are not sent are dark, and means are
+/// tinted.
 #[test]
 fn the_overlay_shows_what_is_sent() {
     let folder = tempfile::tempdir().unwrap();
@@ -88,7 +89,8 @@ fn the_outlines_show_each_state_in_its_colour() {
 }
 
 /// A picture of squares moves by two columns and a row. Each region whose content has moved has an
-/// arrow, in white, from its centre towards the right and downwards. The arrows end in the next region.
+/// arrow, in white, from its centre towards the right and downwards. The arrows end in the next
+/// region.
 #[test]
 fn arrows_show_where_content_has_moved() {
     let folder = tempfile::tempdir().unwrap();
@@ -134,8 +136,8 @@ fn arrows_show_where_content_has_moved() {
     }
 }
 
-/// Regions that are off are hatched, and a line surrounds the areas of the other classes. The legend
-/// names the classes of the map, and only these.
+/// Regions that are off are hatched, and a line surrounds the areas of the other classes. The
+/// legend names the classes of the map, and only these.
 #[test]
 fn the_overlay_shows_the_classes_of_regions() {
     let folder = tempfile::tempdir().unwrap();
@@ -190,8 +192,8 @@ fn the_overlay_shows_the_classes_of_regions() {
     assert_eq!(legend("zones={}").height(), 320 + (9 + 9 + 28) * 2);
 }
 
-/// The bars fill the width. Each has the height of the share of active regions, on the smallest scale for all
-/// bars but the first, which ends at the top.
+/// The bars fill the width. Each has the height of the share of active regions, on the smallest
+/// scale for all bars but the first, which ends at the top.
 #[test]
 fn the_strip_shows_the_share_of_active_regions() {
     const HEIGHT: u32 = 28 * DOT;

@@ -61,7 +61,8 @@ fn intact_frames_are_complete_whatever_else_is_damaged() {
     }
     let dir = tempfile::tempdir().unwrap();
     let at = |name: &str| dir.path().join(name);
-    // Cut before a picture whose successors refer to pictures before it, without being encoded anew.
+    // Cut before a picture whose successors refer to pictures before it, without being encoded
+    // anew.
     let source = ["-f", "lavfi", "-i", "testsrc2=size=80x60:rate=25:duration=4"];
     let open = "open-gop=1:keyint=30:scenecut=0:bframes=3:b-pyramid=strict:ref=2:b-adapt=2";
     let h264 = ["-pix_fmt", "yuv420p", "-c:v", "libx264", "-x264-params", open];
@@ -93,8 +94,8 @@ fn intact_frames_are_complete_whatever_else_is_damaged() {
     }
 }
 
-/// Decoders work ahead, so that ffmpeg reports these losses before it shows the first frame. Decoding
-/// begins with an IDR picture, so nothing was cut off before it.
+/// Decoders work ahead, so that ffmpeg reports these losses before it shows the first frame.
+/// Decoding begins with an IDR picture, so nothing was cut off before it.
 #[test]
 fn a_loss_soon_after_the_first_frame_is_damage() {
     if !tools() {

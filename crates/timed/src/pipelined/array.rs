@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The stages of an RPU, by the edges at which they step. The edges at which a window steps: it
-//! takes pixels, and gives centers. The tail: the edges at which frames are done, and what
-//! happens then. Frames are given to the engine when they are decided. So the frame that leaves
-//! is always the engine's last one.
+//! The edges at which the stages of an RPU step ([`PipelinedCore`]): a [`Window`] takes pixels
+//! and gives centers, and the [`Tail`] is done with frames. Frames are given to the engine when
+//! they are decided, so the frame that leaves is always the engine's last one.
 
 use crate::clocks::FrameClocks;
 use crate::timed_core::{CoreContext, CoreFrame, TimedCore};

@@ -56,8 +56,8 @@ impl RasterCore {
         beat / taken * u64::from(self.timing.row_words) + beat % taken
     }
 
-    /// Returns the edges of the advances of a frame: each advance happens one edge after the advance
-    /// before it, unless it takes a word for which it has to wait.
+    /// Returns the edges of the advances of a frame: each advance happens one edge after the
+    /// advance before it, unless it takes a word for which it has to wait.
     fn clocks(&self, offers: &[BeatOffer]) -> FrameClocks {
         let offers = offers.iter().map(|offer| (self.advance_of_beat(offer.beat), offer.clock));
         FrameClocks::new(self.open_from, offers)
@@ -72,8 +72,8 @@ impl RasterCore {
         }
     }
 
-    /// Decides the engine's last frame row of regions by row of regions, and yields the transactions
-    /// before edge `end`.
+    /// Decides the engine's last frame row of regions by row of regions, and yields the
+    /// transactions before edge `end`.
     fn decide_frame(
         &mut self,
         clocks: &FrameClocks,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A serial array between two frames. The clocks that taking a frame needs: one for each pixel,
-//! or one for each place in the lanes where a pixel of a raster feed is stored. The outputs of
-//! the lanes for one slot, phase by phase.
+//! A serial array between two frames ([`SerialCore`]): it takes a frame and works on it slot by
+//! slot. Taking needs one clock for each pixel, or for each place in the lanes where a pixel of
+//! a raster feed is stored ([`IntakeClocks`]). The outputs of the lanes come for one slot,
+//! phase by phase ([`FrameOutput`]).
 
 use crate::clocks::FrameClocks;
 use crate::timed_core::{CoreContext, CoreFrame, TimedCore};

@@ -36,8 +36,8 @@ const PUBLISH_ATTEMPTS: u32 = 3;
 pub struct Cache {
     root: PathBuf,
     limit: SizeLimit,
-    /// The number of bytes built since this process last made room; the largest number before it has
-    /// done so for the first time.
+    /// The number of bytes built since this process last made room; the largest number before it
+    /// has done so for the first time.
     built_bytes: Arc<AtomicU64>,
     scratch: Option<Arc<ScratchFolder>>,
 }
@@ -105,8 +105,8 @@ impl Cache {
         self.root.join(key.as_str()).join(artifact).exists()
     }
 
-    /// Returns the path of `artifact` in the entry of `key`, and builds the entry first if it is not
-    /// there. `build` fills an empty folder, whose content becomes the entry. If `build` fails,
+    /// Returns the path of `artifact` in the entry of `key`, and builds the entry first if it is
+    /// not there. `build` fills an empty folder, whose content becomes the entry. If `build` fails,
     /// nothing remains but the log of the failure, which a throw-away cache does not keep either.
     ///
     /// # Errors

@@ -22,8 +22,8 @@ pub(super) const STALE_AGE: Duration = Duration::from_secs(24 * 3600);
 const MIB: u64 = 1 << 20;
 const DEFAULT_LIMIT: u64 = 5 << 30;
 /// The divisor of the limit that gives the slack: the number of bytes after which a process makes
-/// room again, and the number of bytes that are then left free, so that a full cache is not searched
-/// after every build.
+/// room again, and the number of bytes that are then left free, so that a full cache is not
+/// searched after every build.
 const SLACK_DIVISOR: u64 = 16;
 
 /// The largest number of bytes of a cache, or no limit.

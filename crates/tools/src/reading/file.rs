@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Opens input files, and reads small ones as a whole. A reader that fails at a limit. Files
-//! that may be gzipped.
+//! How inputs are read: files are opened in one place ([`open_file`]), small ones are read as a
+//! whole ([`read_bytes`]), gzipped ones are unpacked ([`unpacked`]), and a reader can fail at a
+//! limit ([`LimitedReader`]).
 
 use crate::reading::size_text::size_text;
 use flate2::bufread::MultiGzDecoder;
@@ -126,8 +127,8 @@ impl<R> LimitedReader<R> {
 /// The first bytes of a gzipped file.
 pub const GZIP_MAGIC: [u8; 2] = [0x1F, 0x8B];
 
-/// Returns the content of a file, unpacked if it is gzipped. The content may be much larger than the
-/// file, so the caller limits it.
+/// Returns the content of a file, unpacked if it is gzipped. The content may be much larger than
+/// the file, so the caller limits it.
 ///
 /// # Errors
 /// Fails if the first bytes cannot be read.

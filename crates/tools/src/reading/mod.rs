@@ -4,8 +4,8 @@
 //! A small file has a limit of bytes ([`read_text`], [`read_bytes`]). A table has a limit of bytes
 //! per record ([`table_reader`]), so that a table of any length can be read, but one endless record
 //! cannot take all memory. A reader of a whole document has a limit of bytes, too
-//! ([`LimitedReader`]), which also holds behind [`unpacked`], for files that may be gzipped. Reaching a
-//! limit is a distinct error and never looks like the end of a file.
+//! ([`LimitedReader`]), which also holds behind [`unpacked`], for files that may be gzipped.
+//! Reaching a limit is a distinct error and never looks like the end of a file.
 //!
 //! The errors are [`io::Error`]s of the kind [`io::ErrorKind::FileTooLarge`] or
 //! [`io::ErrorKind::InvalidData`]; the caller adds the name of the file.

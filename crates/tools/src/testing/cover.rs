@@ -9,11 +9,11 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::takes_whole_lists;
 
-/// Returns the designs of a matrix that cover it, in their order: the fewest in which every value of
-/// a key that occurs in the matrix occurs, or all of them if tests take whole lists. `toml` returns
-/// the configuration of a design as `to_toml` writes it. A key that a design lacks counts as a value
-/// of its own. The size of the frame and the thresholds are numbers without a case of their own in
-/// the hardware, so they do not count.
+/// Returns the designs of a matrix that cover it, in their order: the fewest in which every value
+/// of a key that occurs in the matrix occurs, or all of them if tests take whole lists. `toml`
+/// returns the configuration of a design as `to_toml` writes it. A key that a design lacks counts
+/// as a value of its own. The size of the frame and the thresholds are numbers without a case of
+/// their own in the hardware, so they do not count.
 pub fn cover<T>(designs: Vec<T>, toml: impl Fn(&T) -> String) -> Vec<T> {
     if takes_whole_lists() { designs } else { cover_of_values(designs, toml) }
 }

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Compiles and links the C++ that Verilator writes.
+//! Compiles and links the C++ that Verilator writes ([`ModelCompiler`]).
 //!
-//! Every C++ file of a model includes the same large headers, whose compilation takes longer than
-//! the code of a small model. Small models are therefore compiled as one file that includes all
-//! others and the main, and large models as several such files. For models that are built with
-//! `-Og`, the headers are compiled once, into the cache.
+//! Every C++ file of a model includes the same large headers, whose compilation takes longer
+//! than the code of a small model. Small models are therefore compiled as one file that
+//! includes all others and the main, and large models as several such files. For models that
+//! are built with `-Og`, the headers are compiled once, into the cache.
 //!
-//! Reads Verilator's makefiles to learn which files it wrote, and which parts of its run time
-//! and which libraries they need. This differs between versions, so it is read and not assumed.
+//! Verilator's makefiles say which files it wrote, and which parts of its run time and which
+//! libraries they need ([`MakefileLists`]). This differs between versions, so it is read and
+//! not assumed.
 
 use crate::cache::Cache;
 use crate::cache_key::{CacheKey, CacheKeyBuilder};

@@ -164,7 +164,8 @@ mod tests {
         assert_eq!(refused, ["serial flow"; 2], "only the rows of flow have no reference");
         let (_, mut refused) = flow_rows(&["region.size=3", "temporal.min_count=2"]);
         refused.dedup();
-        // The default minimum of `segment` is above all its scores, and `serial` has no such regions.
+        // The default minimum of `segment` is above all its scores, and `serial` has no such
+        // regions.
         assert_eq!(refused, ["pipelined segment", "serial", "raster segment"]);
     }
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `foveate estimate --liberty`: area, timing, leakage and energy of a design in the cells of a process.
+//! `foveate estimate --liberty`: area, timing, leakage and energy of a design in the cells of a
+//! process.
 
 use std::path::Path;
 use std::sync::atomic::AtomicBool;

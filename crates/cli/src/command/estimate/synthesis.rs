@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The synthesis of one design, for a report or for a row of the comparison. `foveate estimate
-//! --place-and-route`: the clock that a design reaches on a device.
+//! The syntheses of `foveate estimate`: of one design, for a report or for a row of the
+//! comparison ([`SynthesisTools`]), and, with `--place-and-route`, for the clock that a design
+//! reaches on a device ([`run`]).
 
 use crate::args::{DesignPart, EstimateArgs};
 use crate::error::CliError;

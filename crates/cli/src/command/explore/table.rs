@@ -138,8 +138,8 @@ pub(super) fn markdown(found: &Exploration) -> String {
     text
 }
 
-/// Returns a short text: at most eight points of every front with a line that generates each, and the files with all
-/// points.
+/// Returns a short text: at most eight points of every front with a line that generates each, and
+/// the files with all points.
 pub(super) fn text(folder: &Path, found: &Exploration, width: usize) -> String {
     let plural = if found.rows.len() == 1 { "" } else { "s" };
     let mut text = format!("{} design{plural}\n", found.rows.len());

@@ -106,8 +106,8 @@ const fn mean_sequences_around_reset() -> [FrameSequence; 2] {
 }
 
 /// Returns sequences that bring about a situation whatever is drawn: every region is active,
-/// irrelevant, active again, and held twice; all pixels of a region count as changed, and the minimum is
-/// above that.
+/// irrelevant, active again, and held twice; all pixels of a region count as changed, and the
+/// minimum is above that.
 const fn certain_sequences() -> [FrameSequence; 2] {
     use StimulusPattern::{Noise, Same, Zero};
     let aimed = FrameSequence::with_aim;
@@ -130,8 +130,8 @@ const fn rough_sequence() -> FrameSequence {
     FrameSequence { is_mixed: false, ..rough }
 }
 
-/// Returns a sequence in which the regions have the classes of the configuration, from the second bank of
-/// the memory of classes, into which nothing has been written.
+/// Returns a sequence in which the regions have the classes of the configuration, from the second
+/// bank of the memory of classes, into which nothing has been written.
 const fn first_map_sequence() -> FrameSequence {
     use StimulusPattern::{Noise, Zero};
     let patterns = &[Noise, Zero, Noise];
@@ -139,8 +139,8 @@ const fn first_map_sequence() -> FrameSequence {
     FrameSequence { is_mixed: false, classes: ClassChoice::Configured, ..first }
 }
 
-/// Returns all sequences of a design, the most telling first. Sequences of damaged frames are behind
-/// the others, if the simulated hardware synchronizes to the start of a frame.
+/// Returns all sequences of a design, the most telling first. Sequences of damaged frames are
+/// behind the others, if the simulated hardware synchronizes to the start of a frame.
 pub(super) fn sequences(design: &Design, has_frame_sync: bool) -> Vec<FrameSequence> {
     let mut sequences = match design.hardware() {
         Hardware::Pipelined(own) => pipelined::sequences(design.with_hardware(own)),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The faults of the periphery of an array on AXI: one for each kind of check. Mutation
-//! (`scripts/mutation.sh`) changes every line of its modules. After a change of the RTL, a text that is no
-//! longer found is replaced by one with the same effect.
+//! (`scripts/mutation.sh`) changes every line of its modules. After a change of the RTL, a text
+//! that is no longer found is replaced by one with the same effect.
 
 /// A small core without parts that take long to build.
 pub(crate) const SMALL: &[&str] = &[

@@ -518,8 +518,8 @@ const FAULTS: &[(&str, &str)] = &[
     ),
 ];
 
-/// A run plants only a part of the faults, but a change of the driver must not leave one without its
-/// text.
+/// A run plants only a part of the faults, but a change of the driver must not leave one without
+/// its text.
 #[test]
 fn the_driver_has_the_text_of_every_planted_fault_once() {
     for (keys, _) in DESIGNS {

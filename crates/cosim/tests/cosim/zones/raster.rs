@@ -5,8 +5,8 @@ use super::{ZonedDesign, check_designs};
 use foveate_cosim::Simulator;
 
 /// Designs in which the class of a region reaches the parts of the core after different delays:
-/// plain and deep, with none, one and two windows, with and without a second pass, with words of one
-/// and more pixels.
+/// plain and deep, with none, one and two windows, with and without a second pass, with words of
+/// one and more pixels.
 const DESIGNS: [ZonedDesign; 14] = [
     ZonedDesign {
         purpose: "two windows",

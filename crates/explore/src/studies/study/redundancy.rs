@@ -93,8 +93,8 @@ fn with_every_feature(config: &DesignConfig) -> DesignConfig {
     with_features(kinds)
 }
 
-/// Returns a feature that a camera does not have, with its defaults. It has the mean that the camera
-/// has, and a minimum that is within reach of a small region.
+/// Returns a feature that a camera does not have, with its defaults. It has the mean that the
+/// camera has, and a minimum that is within reach of a small region.
 fn default_entry(config: &CameraConfig, kind: FeatureKind) -> SpatialConfig {
     let mut entry = SpatialConfig::new(kind).with_defaults(config.frame.pixel_bits);
     if entry.has_mean_fraction() {

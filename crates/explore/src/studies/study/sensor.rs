@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The correlation of the model with a real event sensor: the rank correlation, over regions,
-//! of the model's counts with the numbers of events that the sensor sent at the same time. The
-//! file of a real event sensor: a table as CSV, or EVT 2.0, EVT 3.0 or AEDAT4. All may be
-//! packed with gzip.
+//! The correlation of the model with a real event sensor ([`run`]): the rank correlation, over
+//! regions, of the model's counts with the numbers of events that the sensor sent at the same
+//! time. The events come from a file ([`read_sensor_events`]): a table as CSV, or EVT 2.0, EVT
+//! 3.0 or AEDAT4, each perhaps packed with gzip.
 
 use super::{Study, refuse_data_sets};
 use crate::studies::StudyError;

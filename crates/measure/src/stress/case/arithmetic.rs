@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The accumulators reach their derived maximum, and have neither one bit too few nor one bit
-//! too many. The variance of data with a large mean and a small spread, for which the sum of
-//! squares and the square of the sum agree in their leading digits. The division by a
-//! reciprocal, which must equal floor division for every input.
+//! Cases of the arithmetic of scores: the accumulators reach their derived maximum, and have
+//! neither one bit too few nor one bit too many ([`largest_scores`]); the variance is right for
+//! data with a large mean and a small spread, for which the sum of squares and the square of
+//! the sum agree in their leading digits ([`large_mean_variance`]); and the division by a
+//! reciprocal equals floor division for every input ([`reciprocals`]).
 
 use crate::stress::designs::{
     RandomNumbers, config, design, frame_from_fn, kinds_for, organization_for,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The difference between the screen and the scene over long runs. Long runs: positions,
-//! windows and flags wrap thousands of times, and frame numbers exceed 8 and 16 bits, in case a
-//! counter is too narrow.
+//! Cases of long runs: the difference between the screen and the scene stays what a reference
+//! promises ([`invariant_on_scenes`]), and nothing goes wrong when positions, windows and flags
+//! wrap thousands of times, and frame numbers exceed 8 and 16 bits, in case a counter is too
+//! narrow ([`long_runs`]).
 
 use crate::stress::designs::{RandomNumbers, config, design, design_matrix, frame_from_fn};
 use crate::stress::model_comparison::{AgreementTally, compare_models};

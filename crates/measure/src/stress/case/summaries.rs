@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The means of blocks that irrelevant regions show: they are rounded correctly, and stay near
-//! the scene. Means that end in exactly one half, or one pixel below or above it.
+//! Cases of means of blocks: those that irrelevant regions show are rounded correctly
+//! ([`halves`]) and stay near the scene ([`fade`]), and scores are right for means that end in
+//! exactly one half, or one pixel below or above it ([`halves_of_means`]).
 
 use crate::stress::designs::{RandomNumbers, config, design, frame_from_fn};
 use crate::stress::{CaseRow, RunDepth};

@@ -10,8 +10,9 @@ use foveate_pixels::Frame;
 use crate::stress::designs::{RandomNumbers, config, design, organization_for};
 use crate::stress::{CaseRow, RunDepth};
 
-/// Tests that a score votes if the minimum is equal to it and not if it is one higher, or higher by the
-/// last digit of a decimal, and that a pixel is a hit if the level is one below its magnitude and not if it is equal.
+/// Tests that a score votes if the minimum is equal to it and not if it is one higher, or higher by
+/// the last digit of a decimal, and that a pixel is a hit if the level is one below its magnitude
+/// and not if it is equal.
 pub(crate) fn on_below_above(depth: RunDepth) -> Vec<CaseRow> {
     let rounds = depth.choose(12, 200);
     let scored = FeatureKind::ALL.iter().map(|&kind| score_thresholds(kind, rounds));

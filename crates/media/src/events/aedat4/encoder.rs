@@ -15,7 +15,8 @@ pub(crate) struct Aedat4Encoder {
 }
 
 impl Aedat4Encoder {
-    /// Makes an encoder for a sensor of `size` (width, height) pixels. Returns it with the header of the file.
+    /// Makes an encoder for a sensor of `size` (width, height) pixels. Returns it with the header
+    /// of the file.
     pub(crate) fn new(size: (u32, u32)) -> (Self, Vec<u8>) {
         (Self { waiting: Vec::with_capacity(PACKET_EVENTS) }, header_bytes(size))
     }

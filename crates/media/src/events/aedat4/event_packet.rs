@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The flatbuffer of a packet of events: a vector of events with 16 bytes each, which are the
-//! time, the column, the row, the polarity, and three bytes that are 0. The compression of
-//! packets.
+//! A packet of events ([`EventQueue`]): a flatbuffer with a vector of 16 bytes for each event,
+//! which are the time, the column, the row, the polarity, and three bytes that are 0. A packet
+//! may be compressed ([`PacketCompression`]).
 
 use super::flat_table::FlatTable;
 use crate::events::PixelEvent;
@@ -18,7 +18,8 @@ const EVENT_BYTES: usize = 16;
 /// Returns the flatbuffer of some events.
 pub(super) fn packet_of_events(events: &[PixelEvent]) -> Vec<u8> {
     let mut builder = FlatBufferBuilder::with_capacity((events.len() + 4) * EVENT_BYTES);
-    // A struct is written as two numbers of 64 bits, from its end: a type of its own would need unsafe code.
+    // A struct is written as two numbers of 64 bits, from its end: a type of its own would need
+    // unsafe code.
     builder.start_vector::<u64>(2 * events.len());
     for event in events.iter().rev() {
         let place = u64::from(event.x) | u64::from(event.y) << 16;
@@ -83,8 +84,8 @@ pub(super) enum PacketCompression {
 }
 
 impl PacketCompression {
-    /// Returns the compression that a header states as a number. The levels of a compression have numbers of their
-    /// own.
+    /// Returns the compression that a header states as a number. The levels of a compression have
+    /// numbers of their own.
     pub(super) fn from_number(number: i32) -> Option<Self> {
         match number {
             0 => Some(Self::None),

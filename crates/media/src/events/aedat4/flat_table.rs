@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The root table of a flatbuffer behind its length, read through the checks of the library: its accessors of tables
-//! are unsafe functions.
+//! The root table of a flatbuffer behind its length, read through the checks of the library: its
+//! accessors of tables are unsafe functions.
 
 use flatbuffers::{InvalidFlatbuffer, Verifier, VerifierOptions};
 
@@ -28,7 +28,8 @@ impl<'a> FlatTable<'a> {
         self.bytes.get(IDENTIFIER_AT..)?.first_chunk().copied()
     }
 
-    /// Returns the bytes of a number, field `number` of the table; `None` if the table does not have it.
+    /// Returns the bytes of a number, field `number` of the table; `None` if the table does not
+    /// have it.
     pub(super) fn scalar<const BYTES: usize>(
         self,
         number: u16,
@@ -37,8 +38,8 @@ impl<'a> FlatTable<'a> {
         self.slice(at, BYTES).map(|bytes| bytes.first_chunk().copied())
     }
 
-    /// Returns the bytes of a vector or a string, field `number` of the table, whose elements have `size` bytes;
-    /// `None` if the table does not have it.
+    /// Returns the bytes of a vector or a string, field `number` of the table, whose elements have
+    /// `size` bytes; `None` if the table does not have it.
     pub(super) fn vector(
         self,
         number: u16,

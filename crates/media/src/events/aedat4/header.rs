@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The header of a file: the line of its format, and a flatbuffer with the compression, the
-//! place of the table of packets, and the streams. The XML of a header: the streams of a file,
-//! their content, and the size of the sensor.
+//! The header of a file ([`Aedat4Header`]): the line of its format, and a flatbuffer with the
+//! compression, the place of the table of packets, and the streams. The streams are XML with
+//! their content and the size of the sensor ([`StreamInfo`]).
 
 use super::event_packet::{EVENTS_IDENTIFIER, PacketCompression};
 use super::flat_table::{FlatTable, LENGTH_BYTES};
@@ -136,7 +136,8 @@ impl StreamInfo {
     }
 }
 
-/// Returns the XML of a file with one stream of events. Readers of iniVation find a stream by its output name.
+/// Returns the XML of a file with one stream of events. Readers of iniVation find a stream by its
+/// output name.
 pub(super) fn stream_info_text((width, height): (u32, u32)) -> String {
     let text =
         |key: &str, value: &str| format!("<attr key=\"{key}\" type=\"string\">{value}</attr>\n");

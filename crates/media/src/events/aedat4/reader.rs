@@ -16,7 +16,8 @@ const PACKET_HEADER_BYTES: usize = 8;
 pub(crate) struct Aedat4Reader<R> {
     input: R,
     header: Aedat4Header,
-    /// The stream of the events; `None` until a packet has events, if the header does not name the streams.
+    /// The stream of the events; `None` until a packet has events, if the header does not name the
+    /// streams.
     stream: Option<i32>,
     /// The place of the next packet in the file, in bytes from 0, and that of the last one.
     next_at: u64,

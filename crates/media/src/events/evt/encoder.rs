@@ -6,8 +6,8 @@ use super::evt3::Evt3Encoder;
 use super::header::{EvtVersion, header_text};
 use crate::events::{EventFileError, PixelEvent};
 
-/// The longest pause between two events. A stream has a dozen bytes for each loop of its times, of which a pause
-/// may have many.
+/// The longest pause between two events. A stream has a dozen bytes for each loop of its times, of
+/// which a pause may have many.
 const MAX_PAUSE_US: u64 = 30 * 24 * 3600 * 1_000_000;
 
 /// Makes words of events.
@@ -18,7 +18,8 @@ pub(crate) enum EvtEncoder {
 }
 
 impl EvtEncoder {
-    /// Makes an encoder for a sensor of `size` (width, height) pixels. Returns it with the header of the file.
+    /// Makes an encoder for a sensor of `size` (width, height) pixels. Returns it with the header
+    /// of the file.
     pub(crate) fn new(version: EvtVersion, size: (u32, u32)) -> (Self, String) {
         let encoder = match version {
             EvtVersion::Evt2 => Self::Evt2(Evt2Encoder::new()),

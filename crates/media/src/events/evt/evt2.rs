@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The words of EVT 2.0, which have 32 bits: the type in the highest four, and for an event the low six bits of
-//! its time, x and y with 11 bits each.
+//! The words of EVT 2.0, which have 32 bits: the type in the highest four, and for an event the low
+//! six bits of its time, x and y with 11 bits each.
 
 use super::time_base::{TimeBaseDecoder, TimeBaseEncoder};
 use crate::events::PixelEvent;
@@ -53,8 +53,8 @@ impl Evt2Decoder {
         Self { base: TimeBaseDecoder::new(HIGH_BITS) }
     }
 
-    /// Takes a word. Returns its event; `None` for other words, and for events before the first time. Triggers and
-    /// words of a vendor have no event.
+    /// Takes a word. Returns its event; `None` for other words, and for events before the first
+    /// time. Triggers and words of a vendor have no event.
     pub(crate) fn take(&mut self, word: u32) -> Option<PixelEvent> {
         let kind = word >> HIGH_BITS;
         if kind == TIME_HIGH {

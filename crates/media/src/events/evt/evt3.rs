@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The words of EVT 3.0, which have 16 bits: the type in the highest four. A word states a row, a pixel, the start
-//! of a vector or a part of the time, and the other fields keep their values. A vector has a bit for each of 12
-//! or 8 pixels in a row.
+//! The words of EVT 3.0, which have 16 bits: the type in the highest four. A word states a row, a
+//! pixel, the start of a vector or a part of the time, and the other fields keep their values. A
+//! vector has a bit for each of 12 or 8 pixels in a row.
 
 use super::time_base::{TimeBaseDecoder, TimeBaseEncoder};
 use crate::events::PixelEvent;
@@ -48,8 +48,8 @@ impl Evt3Encoder {
         Self { base, time_low: None, row: None, waiting: Vec::new() }
     }
 
-    /// Appends the words of the events that wait, unless the event continues them. It is not earlier than the last
-    /// one.
+    /// Appends the words of the events that wait, unless the event continues them. It is not
+    /// earlier than the last one.
     pub(crate) fn push(&mut self, event: PixelEvent, words: &mut Vec<u8>) {
         let continues = self.waiting.last().is_none_or(|last| {
             (last.y, last.time_us, last.is_brighter) == (event.y, event.time_us, event.is_brighter)
@@ -152,8 +152,8 @@ impl Evt3Decoder {
     }
 
     /// Takes a word. Returns the event of a single pixel; those of a vector follow from
-    /// [`Evt3Decoder::next_of_vector`]. Events before the first row and time are left out. Triggers and words of a
-    /// vendor have no event.
+    /// [`Evt3Decoder::next_of_vector`]. Events before the first row and time are left out. Triggers
+    /// and words of a vendor have no event.
     pub(crate) fn take(&mut self, word: u16) -> Option<PixelEvent> {
         let content = word & CONTENT;
         let is_brighter = content & POLARITY != 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The header of a file: lines of text that begin with `%`. The versions of EVT.
+//! The header of a file ([`EvtHeader`]): lines of text that begin with `%`, one of which states
+//! the version of EVT ([`EvtVersion`]).
 
 use crate::events::frame_size::check_frame_size;
 use crate::events::{EventFileError, EventFormat};
@@ -21,7 +22,8 @@ pub(crate) struct EvtHeader {
     pub(crate) bytes: u64,
 }
 
-/// Returns the text of a header. The lines are those that cameras write, as far as they concern the events.
+/// Returns the text of a header. The lines are those that cameras write, as far as they concern the
+/// events.
 pub(crate) fn header_text(version: EvtVersion, (width, height): (u32, u32)) -> String {
     let name = match version {
         EvtVersion::Evt2 => "EVT2",

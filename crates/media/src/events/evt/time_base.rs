@@ -15,12 +15,13 @@ impl TimeBaseEncoder {
         Self { high: None, values: 1 << bits }
     }
 
-    /// Moves to a high part that is not smaller. Calls `word` with every value that a word has to state.
+    /// Moves to a high part that is not smaller. Calls `word` with every value that a word has to
+    /// state.
     ///
-    /// A stream begins with 0, from which readers count. Some readers take only a step from the largest value to 0
-    /// for a new loop, and some take a step of more than half a loop for one back. So the largest value and 0 follow
-    /// each other, and other steps are short: a quarter of a loop at most, or 1 within the last loop if
-    /// `is_stepwise`, as sensors do in EVT 3.0.
+    /// A stream begins with 0, from which readers count. Some readers take only a step from the
+    /// largest value to 0 for a new loop, and some take a step of more than half a loop for one
+    /// back. So the largest value and 0 follow each other, and other steps are short: a quarter of
+    /// a loop at most, or 1 within the last loop if `is_stepwise`, as sensors do in EVT 3.0.
     pub(crate) fn advance(&mut self, high: u64, is_stepwise: bool, mut word: impl FnMut(u64)) {
         let mut at = self.high.unwrap_or_else(|| {
             word(0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The tables of the study: the whole table, a smaller one to print, and one of tracks. The
-//! charts of the study over all clips: recall over bytes, and recall by class.
+//! The results of the study: tables of everything, of the part that is printed, and of tracks,
+//! and charts over all clips, of recall over bytes and by class ([`recall_charts`]).
 
 use super::class::{ALL, CLASSES, UNKNOWN};
 use super::count::{ClassCounts, LevelCounts};
