@@ -25,6 +25,7 @@ mod keys;
 mod periphery;
 mod ranges;
 mod reciprocal;
+mod reference;
 mod region_class;
 mod sent_values;
 mod temporal_thresholds;
@@ -56,8 +57,9 @@ pub use ranges::{
     FLOW_RADII, MAX_SIDE, MEAN_FRACTION_BITS, PIXEL_BITS, REGION_SIZES, SUMMARY_BLOCKS, check_range,
 };
 pub use reciprocal::Reciprocal;
+pub use reference::ReferenceWriteTime;
 pub use region_class::{ClassMapError, RegionClass};
-pub use sent_values::{ReferenceWriteTime, RegionAction};
+pub use sent_values::RegionAction;
 pub use width::{bits_for, index_bits, mad_score_max};
 pub use zones::Zones;
 pub use zones_config::{

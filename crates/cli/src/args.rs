@@ -13,12 +13,15 @@ mod examples;
 mod explain;
 mod explore;
 mod fit;
+mod frames;
 mod infer;
 mod input;
 mod link;
+mod live;
 mod outputs;
 #[cfg(test)]
 mod page;
+mod process;
 mod stress;
 mod threads;
 mod view;
@@ -41,7 +44,7 @@ pub(crate) use analyze::AnalyzeArgs;
 pub(crate) use bench::BenchArgs;
 pub(crate) use build::BuildArgs;
 pub(crate) use check::{CheckArgs, ClockFrequency, FramesPerSecond};
-pub(crate) use clocks::{ClockArgs, ProcessArgs};
+pub(crate) use clocks::ClockArgs;
 pub(crate) use dataset::DatasetArgs;
 pub(crate) use decode::DecodeArgs;
 pub(crate) use explain::ExplainArgs;
@@ -52,9 +55,11 @@ pub(crate) use input::{
     check_output, refuse_second_reader, refuse_several_clips, warn_about_inputs,
 };
 pub(crate) use link::LinkArgs;
+pub(crate) use live::LiveArgs;
 pub(crate) use outputs::OutputArgs;
+pub(crate) use process::ProcessArgs;
 pub(crate) use stress::StressArgs;
-pub(crate) use view::{LiveArgs, ViewArgs};
+pub(crate) use view::ViewArgs;
 
 /// Region-based event cameras: bit-accurate model, Verilog, co-simulation, area and simulation.
 #[derive(Debug, Parser)]

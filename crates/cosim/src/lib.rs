@@ -37,8 +37,9 @@ mod stimulus;
 #[cfg(test)]
 mod testing;
 mod timed_run;
+mod written_core;
 
-pub use self::replay::{CORE, WrittenCore, write_core};
+pub use self::written_core::{CORE, WrittenCore, write_core};
 pub use benchmark::{
     BENCHMARK_FORMAT_VERSION, Benchmark, BenchmarkLevel, BenchmarkReport, ExternalTools,
     LevelMeasurement, LevelRow, random_frames,

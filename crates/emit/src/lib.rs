@@ -7,6 +7,7 @@
 
 mod axi;
 mod camera_flags;
+mod class_map;
 mod core_files;
 mod error;
 mod leaf;

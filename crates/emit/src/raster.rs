@@ -5,10 +5,11 @@ use super::camera_flags::{
     ThresholdConstant, ThresholdSignal, filter_number, parameter_prefix, scores_text,
     summary_level_signal, threshold_constants, threshold_signal,
 };
-use super::top::{
-    self, FrameSync, class_address_range, class_connections, class_parameters,
-    class_summary_levels, first_map, keen_signal,
+use super::class_map::{
+    class_address_range, class_connections, class_parameters, class_summary_levels, first_map,
+    keen_signal,
 };
+use super::top::{self, FrameSync};
 use crate::camera_flags::{blanks_flag, last_sent_flag};
 use crate::verilog_text::{PortLine, module_file, rendered_text};
 use crate::{SourceFile, Top, banner};

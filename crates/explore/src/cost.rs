@@ -13,7 +13,7 @@ use foveate_tools::{Cache, Toolchain, sources_sha256};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::store::synthesis_progress;
+use super::progress::synthesis_progress;
 use crate::ExploreError;
 
 /// The area of a design, as Yosys estimates it.

@@ -8,7 +8,7 @@ use foveate_camera::CameraConfig;
 use foveate_media::{InputOptions, RunHooks};
 use serde::Serialize;
 
-use super::store::measuring_progress;
+use super::progress::measuring_progress;
 use crate::error_source::SourceVariants;
 use crate::footage::ExplorationFootage;
 use crate::measure::CameraMeasurement;

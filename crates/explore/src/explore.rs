@@ -3,9 +3,9 @@
 //! fronts, configurations and one page. An [`ExplorationWork`] is what there is to measure: the
 //! clips, and the cameras of the designs.
 
-use super::point::{PointSynthesis, SynthesizedPoints};
+use super::folder::{MARK_FILE, UNFINISHED_MARK, claim_folder, open_continued, replace_mark};
+use super::point_synthesis::{PointSynthesis, SynthesizedPoints};
 use super::row::{error_cells, load_cells, name_cells, point_cells, process_cells};
-use super::store::{MARK_FILE, UNFINISHED_MARK, claim_folder, open_continued, replace_mark};
 use crate::footage::ExplorationFootage;
 use crate::link_load::LoadMeasurement;
 use crate::measure::CameraMeasurement;

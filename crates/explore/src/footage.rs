@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use foveate_camera::{Camera, CameraConfig};
 use foveate_media::{ClipReading, InputOptions, RunClips, RunHooks, RunMonitor, RunProgress};
 
-use super::store::measuring_progress;
+use super::progress::measuring_progress;
 use crate::measure::{CameraMeasurement, MeasuredClip};
 use crate::store::{MeasurementStore, clip_identity, measurement_key};
 use crate::{Disturbance, ExploreError};

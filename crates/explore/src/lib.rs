@@ -13,6 +13,7 @@
 //! [`link`] compares what a camera sends with other senders, and [`studies`] are those of the
 //! paper.
 
+mod compare;
 mod cost;
 mod design_disturbance;
 mod disturbance;
@@ -21,6 +22,7 @@ mod error_source;
 mod exploration;
 mod explore;
 mod fit;
+mod folder;
 mod footage;
 pub mod link;
 mod link_load;
@@ -28,6 +30,8 @@ mod measure;
 mod method;
 mod objective;
 mod point;
+mod point_synthesis;
+mod progress;
 mod report;
 mod request;
 mod row;
@@ -37,6 +41,7 @@ pub mod studies;
 mod target_process;
 mod unit;
 
+pub use compare::{CameraComparison, compare};
 pub use cost::{DesignArea, Synthesizer};
 pub use design_disturbance::{DisturbanceRow, DisturbedDesign, disturb_design};
 pub use disturbance::Disturbance;
@@ -48,14 +53,13 @@ pub use fit::{
     ActivityTarget, AgreementEstimate, ConstraintCheck, Constraints, CostObjective, FitRequest,
     FitResult, FittedDesign, FittedNetwork, NetworkGoal, fit,
 };
+pub use folder::check_folder;
 pub use foveate_measure::{FidelityFigures, ScoreError};
 pub use link_load::LoadFigures;
-pub use measure::{CameraComparison, compare};
 pub use method::{SamplingMethod, SpaceAxis};
 pub use point::{DesignPoint, RefusedCombination};
 pub use request::{ExploreRequest, ProcessRequest, SynthesisRequest};
 pub use row::{DesignRow, FrontMembership, WorstClip};
 pub use space::{BUILT_IN_SPACES, BuiltInSpace, DesignSpace};
-pub use store::check_folder;
 pub use target_process::{ProcessEnergy, ProcessFigures, TargetProcess};
 pub use unit::{WorkUnit, measure_unit, plan_units};

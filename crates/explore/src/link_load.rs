@@ -8,7 +8,7 @@ use foveate_media::RunMonitor;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use super::store::load_progress;
+use super::progress::load_progress;
 use crate::footage::ExplorationFootage;
 use crate::store::{MeasurementStore, load_key};
 use crate::{DesignSpace, ExploreError};

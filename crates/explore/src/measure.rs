@@ -9,13 +9,9 @@ use crate::{Disturbance, ExploreError};
 use foveate_camera::{Camera, CameraConfig};
 use foveate_engine::Engine;
 use foveate_ideal::{IdealCamera, IdealOutcome};
-use foveate_measure::{
-    CandidateFrame, DecisionAreas, ErrorTally, Fidelity, FidelityFigures, FrameOrder,
-};
+use foveate_measure::{CandidateFrame, DecisionAreas, ErrorTally, Fidelity, FrameOrder};
 use foveate_media::boxes::RegionGrid;
-use foveate_media::{
-    ClipPlayer, FrameDepths, PlayedFrame, RunClips, RunHooks, RunMonitor, SourceKind,
-};
+use foveate_media::{ClipPlayer, FrameDepths, PlayedFrame, RunClips, RunMonitor, SourceKind};
 use foveate_pixels::Rect;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -269,39 +265,6 @@ impl ObjectCounts {
         #[allow(clippy::cast_precision_loss, reason = "exact up to 2^53")]
         (self.all > 0).then(|| self.sent as f64 / self.all as f64)
     }
-}
-
-/// The errors of a camera over a clip.
-#[derive(Clone, Debug, PartialEq)]
-pub struct CameraComparison {
-    /// The errors against the ideal camera.
-    pub figures: FidelityFigures,
-    /// The reason why the clip ended early, if it did.
-    pub problem: Option<String>,
-}
-
-/// Compares the camera `config` with the ideal camera of `ideal` over the frames of a player, which
-/// was opened for `ideal`.
-///
-/// # Errors
-/// Fails if the clip cannot be read, if a configuration is not valid for its frames, or if `hooks`
-/// cancels.
-pub fn compare(
-    player: ClipPlayer,
-    config: &CameraConfig,
-    ideal: &CameraConfig,
-    hooks: &dyn RunHooks,
-) -> Result<CameraComparison, ExploreError> {
-    let (width, height) = player.size();
-    let camera = config.validate_for_frames(width, height)?;
-    let monitor = &RunMonitor::of_frames(hooks, player.frames());
-    let clips = &RunClips::from_player(player, &[])?;
-    let parts = std::slice::from_ref(&(0..u64::MAX));
-    let clip = MeasuredClip { clips, clip: 0, ideal, parts, disturbance: None, monitor };
-    let measured = clip.measure(&[camera])?.pop().and_then(|mut parts| parts.pop());
-    let CameraMeasurement { tally, problem, .. } =
-        measured.expect("one camera and one part are measured");
-    Ok(CameraComparison { figures: tally.figures(), problem })
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 //! A point with all its figures ([`DesignRow`]), which is a row of the table of points. CSV and
 //! Parquet have the same list of columns ([`point_cells`]).
 
-use super::point::SynthesizedPoint;
+use super::point_synthesis::SynthesizedPoint;
 use crate::LoadFigures;
 use crate::cost::DesignArea;
 use crate::measure::CameraMeasurement;

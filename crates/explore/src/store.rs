@@ -11,8 +11,8 @@ use foveate_camera::CameraConfig;
 use foveate_cosim::ENERGY_FORMAT_VERSION;
 use foveate_design::{Design, DesignConfig};
 use foveate_estimate::SiliconReport;
-use foveate_media::{ComparedInput, ImageRelation, InputOptions, RunProgress, matched_images};
-use foveate_tools::{ContinuedFolder, TEMPORARY_PREFIX, sha256_hex, write_file};
+use foveate_media::{ComparedInput, ImageRelation, InputOptions, matched_images};
+use foveate_tools::{sha256_hex, write_file};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::fmt::Write as _;
@@ -23,13 +23,18 @@ use std::time::UNIX_EPOCH;
 /// The version of the figures. It grows if figures change their meaning, so that older figures are
 /// not used.
 const FIGURES_VERSION: u32 = 5;
+
 /// The version of the loads on a link, which grows in the same way.
 const LOAD_VERSION: u32 = 1;
+
 /// The version of the energies in the cells of a process, which grows in the same way.
 const ENERGY_VERSION: u32 = 1;
+
 /// The number of hexadecimal digits of a name: 96 bits.
 const KEY_DIGITS: usize = 24;
+
 const STORE_FOLDER: &str = "measured";
+
 /// The largest measurement that is read, in bytes; a usual one has a few KiB.
 const MAX_MEASUREMENT_BYTES: u64 = 1 << 26;
 
@@ -157,96 +162,6 @@ fn stamp_file(text: &mut String, file: &Path) {
     let Ok(about) = fs::metadata(file) else { return };
     let changed = about.modified().ok().and_then(|time| time.duration_since(UNIX_EPOCH).ok());
     let _ = write!(text, "\n{} {} {:?}", file.display(), about.len(), changed);
-}
-
-pub(crate) const MARK_FILE: &str = "exploration.json";
-/// The content of the mark before the exploration is complete.
-pub(crate) const UNFINISHED_MARK: &str = "{ \"finished\": false }\n";
-/// The folder of the files that mark finished units.
-pub(crate) const UNITS_FOLDER: &str = "units";
-
-/// Checks that a folder is an exploration, is empty or does not exist. It reads only the folder's
-/// entries.
-///
-/// # Errors
-/// Fails if the folder holds something else.
-pub fn check_folder(output: &Path) -> Result<(), ExploreError> {
-    // A workflow creates the folder of the files that it waits for.
-    let foreign = |entry: fs::DirEntry| {
-        let name = entry.file_name();
-        name != UNITS_FOLDER && !name.to_string_lossy().starts_with(TEMPORARY_PREFIX)
-    };
-    let occupied = fs::read_dir(output).is_ok_and(|entries| entries.flatten().any(foreign));
-    // Other processes that create the folder write the mark first, so the mark exists if any of
-    // their files was seen.
-    if occupied && !output.join(MARK_FILE).is_file() || output.is_file() {
-        return Err(ExploreError::OtherFolder { path: output.to_owned() });
-    }
-    Ok(())
-}
-
-/// Makes the folder an exploration, unless it holds something else.
-pub(crate) fn claim_folder(output: &Path) -> Result<(), ExploreError> {
-    check_folder(output)?;
-    fs::create_dir_all(output).map_err(ExploreError::io("make the folder", output))?;
-    if output.join(MARK_FILE).is_file() { Ok(()) } else { write_mark(output, UNFINISHED_MARK) }
-}
-
-/// Opens the folder; only files of the exploration are overwritten in it.
-pub(crate) fn open_continued(output: &Path) -> Result<ContinuedFolder, ExploreError> {
-    let mut folder = ContinuedFolder::open(output)?;
-    folder.add_expected(MARK_FILE, UNFINISHED_MARK.as_bytes());
-    Ok(folder)
-}
-
-/// Marks the exploration as unfinished. Returns true if it was complete.
-pub(crate) fn replace_mark(output: &Path) -> Result<bool, ExploreError> {
-    let path = output.join(MARK_FILE);
-    let old = foveate_tools::read_bytes(&path, UNFINISHED_MARK.len() as u64);
-    write_mark(output, UNFINISHED_MARK)?;
-    // A complete description is longer than the mark.
-    Ok(old.is_err())
-}
-
-fn write_mark(output: &Path, text: &str) -> Result<(), ExploreError> {
-    Ok(write_file(&output.join(MARK_FILE), text.as_bytes())?)
-}
-
-/// Reports that clips are read to find their lengths, so far this number of frames.
-pub(crate) fn reading_progress(frames: u64) -> RunProgress<'static> {
-    RunProgress::frames(frames, None, "reading the clips")
-}
-
-/// Reports that designs run over clips: so many pairs of a clip and a design are done, of all
-/// pairs.
-pub(crate) fn measuring_progress(done_pairs: usize, all: usize) -> RunProgress<'static> {
-    RunProgress::steps("designs over clips", done_pairs as u64, all as u64)
-}
-
-/// Reports that a design runs over a clip in front of a link, so far this number of frames.
-pub(crate) fn load_progress(frames: u64) -> RunProgress<'static> {
-    RunProgress::frames(frames, None, "designs in front of the link")
-}
-
-/// Reports that a network runs behind cameras, so far behind this number.
-pub(crate) fn network_progress(cameras: usize) -> RunProgress<'static> {
-    RunProgress::work(format!("running the network behind cameras, {cameras} so far"))
-}
-
-/// Reports that Yosys synthesizes designs: so many distinct RTLs are done, of all distinct RTLs.
-pub(crate) fn synthesis_progress(done: usize, all: usize) -> RunProgress<'static> {
-    RunProgress::steps("synthesizing with Yosys", done as u64, all as u64)
-}
-
-/// Reports that designs are mapped to the cells of a process: so many distinct RTLs are done, of
-/// all distinct RTLs.
-pub(crate) fn mapping_progress(done: usize, all: usize) -> RunProgress<'static> {
-    RunProgress::steps("mapping to cells", done as u64, all as u64)
-}
-
-/// Reports that the gates of designs are simulated: so many designs are done, of all designs.
-pub(crate) fn energy_progress(done: usize, all: usize) -> RunProgress<'static> {
-    RunProgress::steps("simulating gates", done as u64, all as u64)
 }
 
 #[cfg(test)]

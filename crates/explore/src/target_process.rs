@@ -11,7 +11,7 @@ use foveate_media::{PlaybackError, RunClips, RunHooks};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::store::{energy_progress, mapping_progress};
+use super::progress::{energy_progress, mapping_progress};
 use crate::ExploreError;
 use crate::cost::{ResultsByRtl, Synthesizer};
 use crate::store::EnergyStore;

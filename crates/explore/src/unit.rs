@@ -16,7 +16,7 @@ use foveate_tools::write_file;
 use serde::{Deserialize, Serialize};
 
 use super::explore::ExplorationWork;
-use super::store::{UNITS_FOLDER, check_folder, claim_folder};
+use super::folder::{UNITS_FOLDER, check_folder, claim_folder};
 use crate::footage::{CAMERAS_PER_UNIT, MeasurementCount};
 use crate::link_load::LoadMeasurement;
 use crate::store::{MeasurementStore, key_of};

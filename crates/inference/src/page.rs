@@ -2,6 +2,7 @@
 //! The page of a run: its setup, its savings, charts, tables, and the command that repeats it. The
 //! page needs no script to be read, and loads nothing.
 
+mod command_line;
 mod figures;
 mod rows;
 mod sentences;
@@ -104,7 +105,7 @@ pub(crate) fn render_page(
         tried: summary.tuning.is_some().then(|| tried.table("number of the run")),
         frames: is_counted.then(|| rows.table("number of the frame")),
         every,
-        command: sentences::shell_command(command),
+        command: command_line::shell_command(command),
         camera: sentences::camera_text(design),
         toml: design.config().to_toml(),
         fingerprint: design.fingerprint(),

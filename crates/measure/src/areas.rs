@@ -5,7 +5,7 @@
 use foveate_camera::RegionAction;
 use serde::{Deserialize, Serialize};
 
-use super::sample::ratio;
+use super::fixed_point::ratio;
 
 /// The area of every combination of two states; the index is `ideal << STATE_BITS | candidate`.
 pub(crate) type StateAreas = [u64; 1 << (2 * STATE_BITS)];

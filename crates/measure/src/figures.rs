@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::sample::{count_to_f64, ratio};
+use super::fixed_point::{count_to_f64, ratio};
 use crate::ErrorTally;
 use crate::scores::ScoreTally;
 

@@ -12,6 +12,7 @@ mod areas;
 mod error;
 mod fidelity;
 mod figures;
+mod fixed_point;
 mod overlap;
 mod sample;
 mod scores;
@@ -19,14 +20,16 @@ mod screens;
 mod similarity;
 mod staleness;
 pub mod stress;
+mod tally;
 mod threshold_table;
 
 pub use areas::{ActiveAreas, DecisionAreas, DecisionState, FrameOrder};
 pub use error::FidelityError;
 pub use fidelity::{CandidateFrame, Fidelity};
 pub use figures::{FidelityFigures, ScoreError, Staleness};
-pub use overlap::{ErrorTally, GridCells};
+pub use overlap::GridCells;
 pub use similarity::FrameSimilarity;
+pub use tally::ErrorTally;
 pub use threshold_table::{
     ChosenSteps, DecisionLimits, MinimumChoice, MinimumSteps, ThresholdTable,
 };

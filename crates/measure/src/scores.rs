@@ -7,7 +7,7 @@ use foveate_engine::FrameOutcome;
 use foveate_ideal::IdealOutcome;
 use serde::{Deserialize, Serialize};
 
-use super::sample::{FixedPoint, count_to_f64};
+use super::fixed_point::{FixedPoint, count_to_f64};
 
 /// The error of one score, summed over regions and frames.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

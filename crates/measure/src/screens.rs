@@ -12,7 +12,8 @@
 //! Similarity", 2004. Mean, variance and covariance are multiplied by the number of pixels or
 //! its square, so that only whole numbers are added.
 
-use super::sample::{ComparedFrames, FixedPoint, count_to_f64};
+use super::fixed_point::{FixedPoint, count_to_f64};
+use super::sample::ComparedFrames;
 use crate::sample::PixelSample;
 use serde::{Deserialize, Serialize};
 

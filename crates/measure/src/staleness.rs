@@ -4,7 +4,7 @@
 use foveate_camera::Camera;
 use serde::{Deserialize, Serialize};
 
-use super::sample::ratio;
+use super::fixed_point::ratio;
 use crate::sample::PixelSample;
 
 /// The staleness, summed over frames.

@@ -14,7 +14,7 @@ use foveate_camera::{
 };
 use foveate_engine::FrameOutcome;
 
-use super::sample::count_to_f64;
+use super::fixed_point::count_to_f64;
 use crate::areas::{DecisionAreas, DecisionState, FrameOrder};
 use crate::overlap::GridCells;
 

@@ -26,6 +26,7 @@ mod orientation;
 mod picture;
 mod plan;
 mod playback;
+mod rate;
 mod raw;
 mod raw_layout;
 mod samples;
@@ -59,10 +60,11 @@ pub use playback::{
     PlaybackError, PlayedFrame, ProgressStage, ProgressUnit, RemainingTime, RunClips, RunHooks,
     RunMonitor, RunProgress, SilentHooks, StageAmount, run_in_parallel, testing,
 };
+pub use rate::FrameRate;
 pub use raw_layout::RawLayout;
 pub use source::memory_source::source_from_memory;
 pub use source::selection::{FrameSelection, parse_time};
 pub use source::set_form::{IdxFile, SetFiles, SetForm, SetLabels};
 pub use source::{FrameOrigin, FrameSource, SourceFrame, SourceKind};
-pub use timestamps::{FrameRate, TimestampUnit, TimestampsFile};
+pub use timestamps::{TimestampUnit, TimestampsFile};
 pub use warnings::InputWarnings;

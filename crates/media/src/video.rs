@@ -19,6 +19,7 @@ mod clock;
 mod decoder;
 mod ffmpeg_log;
 mod formats;
+mod late_start;
 mod pixel_formats;
 mod probe;
 
@@ -186,7 +187,7 @@ impl VideoFeed {
             conversion,
             interrupt,
         };
-        let sought = clock::start(&tools, &ffmpeg, &probe, start_us)?;
+        let sought = late_start::start(&tools, &ffmpeg, &probe, start_us)?;
         let is_sought = sought.is_some();
         let (decoder, first_pts) = match sought {
             Some(sought) => (sought.decoder, Some(sought.first_pts)),
@@ -239,7 +240,7 @@ impl VideoFeed {
         let mut problem = self.decoder.finish()?;
         if problem.is_none()
             && let Some(missing) = self.decoder.missing_reference()
-            && (self.is_sought || clock::begins_cleanly(&self.ffmpeg, &self.codec)?)
+            && (self.is_sought || late_start::begins_cleanly(&self.ffmpeg, &self.codec)?)
         {
             problem = Some(missing);
         }

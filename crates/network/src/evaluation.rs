@@ -2,7 +2,7 @@
 //! Runs a network once on arrays, without a camera, so that its outputs can be compared with those
 //! of other programs.
 
-use super::executor::OptionalInstant;
+use super::optional_instant::OptionalInstant;
 use crate::error::NetworkError;
 use crate::executor::{ExecutionMode, Executor};
 use crate::mask::Mask;

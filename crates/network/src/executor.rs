@@ -2,6 +2,7 @@
 //! Runs a network frame by frame, and recomputes only what may have changed ([`Executor`]). It
 //! measures its time where there is a clock ([`OptionalInstant`]).
 
+use super::optional_instant::OptionalInstant;
 use super::tensor::TensorForm;
 use crate::comparison::{changed_positions, copy_positions};
 use crate::element::{ElementType, with_element_type};
@@ -10,7 +11,7 @@ use crate::network::Network;
 use crate::operator::OperatorJob;
 use crate::tensor::Tensor;
 use crate::values::{TensorNumber, TensorValues};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// The positions that are computed for each frame after the first. The first frame is always
 /// computed densely.
@@ -292,23 +293,6 @@ impl<'a> Executor<'a> {
             changed_positions: changed.count(),
         };
         self.change_masks[node + 1] = changed;
-    }
-}
-
-/// A point in time. WebAssembly without an operating system has no clock, and asking for the time
-/// would stop the program. On that target all durations are 0.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct OptionalInstant(Option<Instant>);
-
-impl OptionalInstant {
-    pub(crate) fn now() -> Self {
-        let has_clock = !cfg!(all(target_family = "wasm", target_os = "unknown"));
-        Self(has_clock.then(Instant::now))
-    }
-
-    /// The time since this point.
-    pub(crate) fn elapsed(self) -> Duration {
-        self.0.map_or(Duration::ZERO, |start| start.elapsed())
     }
 }
 

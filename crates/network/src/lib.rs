@@ -22,6 +22,7 @@ mod mask;
 mod network;
 pub mod onnx;
 mod operator;
+mod optional_instant;
 mod reader;
 mod tensor;
 mod threads;

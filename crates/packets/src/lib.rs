@@ -9,6 +9,7 @@
 
 mod error;
 mod frame_assembler;
+mod frame_clock;
 mod frame_info;
 mod packet;
 pub mod packet_encoding;
@@ -20,6 +21,7 @@ mod stream_loss;
 
 pub use error::PacketError;
 pub use frame_assembler::FrameAssembler;
+pub use frame_clock::{FrameClock, FrameTime, LONGEST_GAP_SECONDS};
 pub use frame_info::FrameInfo;
 pub use packet::{
     EndPacket, FlowPacket, Packet, RegionDecision, RegionFlags, RegionPacket, RegisterPacket,
@@ -27,8 +29,6 @@ pub use packet::{
 };
 pub use packet_layout::{MAGIC, PacketLayout, VERSION};
 pub use packet_splitter::{PacketSplitter, StreamItem};
-pub use received_frame::{
-    FrameClock, FrameTime, LONGEST_GAP_SECONDS, ReceivedFrame, RegionContent,
-};
+pub use received_frame::{ReceivedFrame, RegionContent};
 pub use register_command::RegisterCommand;
 pub use stream_loss::StreamLoss;

@@ -14,6 +14,7 @@ mod active_groups;
 mod batch;
 mod error;
 mod explanation;
+mod losses;
 mod output;
 mod recording;
 mod simulation;

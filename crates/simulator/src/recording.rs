@@ -11,7 +11,7 @@ use foveate_media::{PlaybackError, RunHooks, RunProgress, SetForm, SourceFrame};
 use foveate_packets::{PacketError, StreamLoss};
 use foveate_tools::{Interrupt, StagedFolder};
 
-use super::stalls::LossTable;
+use super::losses::LossTable;
 use crate::output::{FrameContent, INTERRUPTED, RunRecorder};
 use crate::simulation::{SIMULATION_FOLDER, disk_full_problem};
 use crate::stream::{PacketStream, ShownFrame, StreamItem};

@@ -4,15 +4,14 @@
 //! missing item ([`LossTable`]).
 
 use crate::SimulatorError;
-use crate::output::CsvFile;
 use csv::{ReaderBuilder, StringRecord};
-use foveate_packets::StreamLoss;
 use foveate_tools::{open_file, table_reader};
 use std::ops::Range;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The largest number of stalls, which take 64 MiB.
 const MAX_STALLS: usize = 1 << 22;
+
 /// The largest number of characters of a wrong line in a message.
 const SHOWN_CHARACTERS: usize = 60;
 
@@ -69,49 +68,6 @@ fn shown_line(record: &StringRecord) -> String {
     let mut characters = line.chars();
     let shown: String = characters.by_ref().take(SHOWN_CHARACTERS).collect();
     if characters.next().is_some() { shown + "..." } else { shown }
-}
-
-/// The number of losses that are kept in memory for messages.
-const KEPT_LOSSES: usize = 10;
-
-/// The file of losses, which is created at the first loss.
-pub(crate) struct LossTable {
-    path: PathBuf,
-    csv: Option<CsvFile>,
-    first: Vec<StreamLoss>,
-    count: u64,
-}
-
-impl LossTable {
-    pub(crate) fn new(folder: &Path) -> Self {
-        Self { path: folder.join("losses.csv"), csv: None, first: Vec::new(), count: 0 }
-    }
-
-    pub(crate) fn push(&mut self, loss: StreamLoss) -> Result<(), SimulatorError> {
-        self.count += 1;
-        let csv = match &mut self.csv {
-            Some(csv) => csv,
-            none => none.insert(CsvFile::create(&self.path, "what,frame,row,column,count,offset")?),
-        };
-        let fields =
-            loss.fields().map(|field| field.map_or(String::new(), |field| field.to_string()));
-        csv.line([loss.kind().to_owned()].into_iter().chain(fields));
-        if self.first.len() < KEPT_LOSSES {
-            self.first.push(loss);
-        }
-        csv.write_out(false)
-    }
-
-    /// Returns the number of losses so far.
-    pub(crate) fn count(&self) -> u64 {
-        self.count
-    }
-
-    /// Completes the file. Returns the first losses and the number of all.
-    pub(crate) fn finish(mut self) -> Result<(Vec<StreamLoss>, u64), SimulatorError> {
-        self.csv.as_mut().map_or(Ok(()), |csv| csv.write_out(true))?;
-        Ok((self.first, self.count))
-    }
 }
 
 #[cfg(test)]

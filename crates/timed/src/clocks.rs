@@ -5,7 +5,7 @@
 //! the source never paused. A pause delays a beat and all that follow. So the edges of a frame are
 //! the places plus a delay that only grows, at the few beats before which the source pauses.
 
-use super::sink::NEVER;
+use super::delivery::NEVER;
 
 /// The edges of one frame, by places.
 #[derive(Clone, Debug, PartialEq, Eq)]

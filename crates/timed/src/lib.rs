@@ -16,8 +16,10 @@
 //! The crate shares no code with the cycle models of `foveate-model`. Tests compare every
 //! transaction with what the ports of those models show.
 
+mod clock_row;
 mod clocks;
 mod core_timing;
+mod delivery;
 mod error;
 mod frame_traffic;
 mod model;
@@ -31,14 +33,16 @@ mod timed_clip;
 mod timed_core;
 mod transaction;
 
-pub use core_timing::{ClockEvent, ClockRow, CoreTiming};
+pub use clock_row::{ClockEvent, ClockRow};
+pub use core_timing::CoreTiming;
+pub use delivery::{BeatOffer, FrameDelivery};
 #[doc(hidden)]
 pub use error::TimedError;
 pub use frame_traffic::{FrameTraffic, TrafficMeter};
 pub use model::TimedModel;
 pub use sensor::RowSensor;
 pub use sent_kind::SentKind;
-pub use sink::{BeatOffer, FrameDelivery, RateSink, ReadySink, Sink, SinkPattern, StallList};
+pub use sink::{RateSink, ReadySink, Sink, SinkPattern, StallList};
 pub use timed_clip::TimedClip;
 pub use transaction::{
     DecisionRun, RegionLoss, RegionRun, ScoreRun, SentValues, Transaction, WordRun,

@@ -2,7 +2,7 @@
 //! The model ([`TimedModel`]): it searches the deliveries of a source for frames, by the rules
 //! of `docs/sync.md` ([`StreamState`]), and gives them to the core behind it.
 
-use super::sink::NEVER;
+use super::delivery::NEVER;
 use super::transaction::KeptPixels;
 use crate::clocks::FrameClocks;
 use crate::timed_core::{CoreContext, CoreFrame, TimedCore};

@@ -2,10 +2,10 @@
 //! Compiles and runs Verilog with Icarus. Its four-state logic shows an X that a reset leaves
 //! behind.
 
+use crate::port_widths;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use super::yosys;
 use crate::cache::Cache;
 use crate::cache_key::CacheKey;
 use crate::error::ToolError;
@@ -76,7 +76,7 @@ pub fn compile(
             .timeout(COMPILE_LIMIT);
         let output = toolchain.run_checked(&invocation)?;
         if let Some((module, file)) = &job.exact_ports {
-            yosys::check_warnings(module, file, &output.log())?;
+            port_widths::check_warnings(module, file, &output.log())?;
         }
         refuse_warnings(job.strict, &invocation, &output)
     })

@@ -19,6 +19,7 @@ mod invocation;
 pub mod iverilog;
 pub mod nextpnr;
 pub mod opensta;
+mod port_widths;
 mod process;
 mod reading;
 mod running_program;
@@ -37,6 +38,7 @@ pub use error::ToolError;
 pub use host::{Host, SystemHost};
 pub use interrupt::{Interrupt, InterruptibleReader, open_interruptibly, standard_input};
 pub use invocation::{Invocation, ProgramOutput, StandardInput};
+pub use port_widths::PortBits;
 pub use process::end_all_process_families;
 pub use reading::{
     GZIP_MAGIC, LimitedReader, RECORD_LIMIT, SETTINGS_LIMIT, TableReader, TableRecords,
@@ -52,4 +54,3 @@ pub use staging::{
 pub use synthesis::{SynthesisJob, SynthesisResult, ToolRecord};
 pub use tool::{LocatedTool, Tool, ToolVersion};
 pub use toolchain::Toolchain;
-pub use yosys::PortBits;

@@ -15,7 +15,7 @@ use std::cell::RefCell;
 
 use foveate_pixels::FramePixels;
 
-use super::facts::{MAX_NETWORK_FILE, MAX_PIXELS};
+use super::limits::{MAX_NETWORK_FILE, MAX_PIXELS};
 use crate::{FrameSummary, LiveCamera, PageCameras, PageNetwork, WebError};
 
 /// The largest input in bytes: the file of a network, which is larger than a frame in colour.

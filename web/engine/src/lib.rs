@@ -14,6 +14,7 @@
 mod error;
 pub mod exports;
 mod facts;
+mod limits;
 mod live_camera;
 mod network;
 mod page_cameras;
@@ -21,7 +22,7 @@ mod pixels;
 mod recording;
 
 pub use error::WebError;
-pub use facts::{MAX_CAMERAS, MAX_NETWORK_BYTES, MAX_NETWORK_FILE, MAX_PIXELS, MAX_RECORDING};
+pub use limits::{MAX_CAMERAS, MAX_NETWORK_BYTES, MAX_NETWORK_FILE, MAX_PIXELS, MAX_RECORDING};
 pub use live_camera::{ActionCounts, FrameSummary, LiveCamera};
 pub use network::{FrameDetection, NetworkComparison, NetworkSettings, PageNetwork};
 pub use page_cameras::PageCameras;

@@ -11,7 +11,7 @@ use foveate_model::{
 use foveate_pixels::{Frame, FramePixels, append_luma_of_rgba};
 use serde::Serialize;
 
-use super::facts::MAX_RECORDING;
+use super::limits::MAX_RECORDING;
 use crate::WebError;
 use crate::pixels::{CameraPixels, DepthConversion};
 use crate::recording::{Recording, RecordingState};

@@ -16,7 +16,7 @@ use foveate_pixels::FramePixels;
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
-use super::facts::{MAX_NETWORK_BYTES, MAX_NETWORK_FILE};
+use super::limits::{MAX_NETWORK_BYTES, MAX_NETWORK_FILE};
 use crate::WebError;
 use crate::page_cameras::check_size;
 

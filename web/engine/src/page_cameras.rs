@@ -5,7 +5,8 @@ use foveate_design::DesignConfig;
 use foveate_pixels::{Scene, SceneFrames, SceneParameters};
 use serde_json::Value;
 
-use super::facts::{MAX_CAMERAS, MAX_PIXELS, page_description};
+use super::facts::page_description;
+use super::limits::{MAX_CAMERAS, MAX_PIXELS};
 use crate::{LiveCamera, WebError, facts};
 
 /// The state of a page: its cameras and its scene.

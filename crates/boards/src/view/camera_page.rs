@@ -5,6 +5,7 @@
 //! The page loads nothing. Its policy allows its own script and style by their hashes, and requests
 //! only to its own server, for the frames of `foveate live`.
 
+use super::base85;
 use std::io::Write as _;
 
 use base64::Engine as _;
@@ -16,8 +17,6 @@ use foveate_output::{
     palette::{DARK, LIGHT},
 };
 use sha2::{Digest as _, Sha256};
-
-use super::frame_player;
 
 macro_rules! web_files {
     ($($name:literal),* $(,)?) => { [$(include_str!(concat!("../../web/", $name))),*] };
@@ -91,7 +90,7 @@ fn module_part(module: &str) -> String {
 fn compressed(bytes: &[u8]) -> String {
     let mut gzip = GzEncoder::new(Vec::new(), Compression::best());
     let written = gzip.write_all(bytes).and_then(|()| gzip.finish());
-    frame_player::encode(&written.expect("memory takes everything"))
+    base85::encode(&written.expect("memory takes everything"))
 }
 
 fn policy(script: &str, style: &str) -> String {

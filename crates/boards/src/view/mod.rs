@@ -8,6 +8,7 @@
 //! frame when it has drawn the one before. The library never prints: its messages are fetched with
 //! [`View::take_messages`].
 
+mod base85;
 mod board;
 mod camera_page;
 mod error;
@@ -17,6 +18,8 @@ mod player;
 mod reader;
 mod server;
 mod shared_stream;
+mod site;
+mod timed_stream;
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -31,8 +34,9 @@ pub use player::{Player, PlayerOptions};
 use board::BoardRegisters;
 use input::Input;
 use reader::StreamReader;
-use server::{PageServer, StreamSite};
+use server::PageServer;
 use shared_stream::SharedStream;
+use site::StreamSite;
 
 /// The times at which the frames of a stream are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

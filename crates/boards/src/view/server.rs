@@ -11,10 +11,8 @@
 //!   bytes, lines and time.
 //! * A [`PageSite`] provides the content; for `foveate view` it is a [`StreamSite`].
 
-use super::shared_stream::TimedStream;
+use super::timed_stream::TimedStream;
 use crate::view::ViewError;
-use crate::view::board::BoardRegisters;
-use crate::view::shared_stream::SharedStream;
 use foveate_output::page::colour_variables;
 use foveate_output::palette::{DARK, LIGHT};
 use serde_json::Value;
@@ -27,6 +25,7 @@ use std::time::{Duration, Instant};
 
 /// The time to wait for the connection that wakes the server.
 const WAKE_TIME: Duration = Duration::from_millis(200);
+
 /// The pause before the next connection if the system gives none, because too many files are open.
 const ACCEPT_PAUSE: Duration = Duration::from_millis(50);
 
@@ -197,8 +196,10 @@ fn random_token() -> Result<String, ViewError> {
 
 /// The number of connections at a time.
 const CONNECTIONS: usize = 32;
+
 /// The time that a new connection waits for the thread of a closed one to end.
 const NEW_CONNECTION_LIMIT: Duration = Duration::from_secs(1);
+
 /// The time after which another connection is closed, too.
 const CLOSE_INTERVAL: Duration = Duration::from_millis(100);
 
@@ -294,18 +295,24 @@ impl Drop for ConnectionPlace {
 
 /// The largest head of a request, in bytes.
 const HEAD_LIMIT: u64 = 16 << 10;
+
 /// The largest number of lines in a head.
 const LINE_LIMIT: usize = 100;
+
 /// The largest body of a request, in bytes.
 const BODY_LIMIT: usize = 4 << 10;
+
 /// The time for a whole request, from its first byte on. For the first request of a connection it
 /// begins with the connection.
 const REQUEST_TIME: Duration = Duration::from_secs(5);
+
 /// The longest silence between two requests.
 const IDLE_TIME: Duration = Duration::from_secs(30);
+
 /// The time in which a browser must take an answer. It gets one more second for every
 /// [`BYTES_PER_SECOND`] bytes.
 const ANSWER_TIME: Duration = Duration::from_secs(10);
+
 const BYTES_PER_SECOND: usize = 64 << 10;
 
 /// A request of a browser.
@@ -450,56 +457,6 @@ fn parse_body_length(text: &str) -> io::Result<usize> {
     length
         .filter(|&length| length <= BODY_LIMIT)
         .ok_or_else(|| invalid("the length of the request's body is not a number, or too large"))
-}
-
-/// The time that a browser waits for a change.
-const CHANGE_WAIT: Duration = Duration::from_secs(1);
-
-/// A stream, and the board that sends it.
-#[derive(Debug)]
-pub(crate) struct StreamSite {
-    pub(crate) live: Arc<SharedStream>,
-    pub(crate) board: Arc<BoardRegisters>,
-}
-
-impl PageSite for StreamSite {
-    fn command(&self) -> &'static str {
-        "foveate view"
-    }
-
-    fn page(&self, nonce: &str) -> String {
-        stream_page(nonce, &self.board.describe())
-    }
-
-    fn answer(&self, method: &str, subpath: &str, query: &str, body: &[u8]) -> Option<HttpAnswer> {
-        Some(match (method, subpath) {
-            ("GET", "next") => {
-                let after = query.strip_prefix("after=").and_then(|after| after.parse().ok());
-                HttpAnswer::binary(self.live.changes_after(after.unwrap_or(0), CHANGE_WAIT))
-            }
-            ("POST", "register") => self.write(body),
-            (_, "next" | "register") => HttpAnswer::method_not_allowed(),
-            _ => return None,
-        })
-    }
-
-    fn is_over(&self) -> bool {
-        self.live.is_over()
-    }
-}
-
-impl StreamSite {
-    /// Writes a register: `{"address": 256, "value": 4}`.
-    fn write(&self, body: &[u8]) -> HttpAnswer {
-        let asked: Value = serde_json::from_slice(body).unwrap_or_default();
-        let Some((address, value)) = asked["address"].as_u64().zip(asked["value"].as_u64()) else {
-            return HttpAnswer::text("400 Bad Request", "a register has an address and a value");
-        };
-        match self.board.write(address, value) {
-            Ok(()) => HttpAnswer::text("200 OK", "written"),
-            Err(why) => HttpAnswer::text("409 Conflict", &why),
-        }
-    }
 }
 
 /// Returns the page, with a script that `nonce` allows.

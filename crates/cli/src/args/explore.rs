@@ -7,8 +7,8 @@ use clap::Args;
 use foveate_explore::Disturbance;
 
 use super::check::FramesPerSecond;
-use super::clocks::ProcessArgs;
 use super::input::InputArgs;
+use super::process::ProcessArgs;
 use super::threads::ThreadArgs;
 
 /// Measure many designs over clips: error against the ideal camera, area, speed, Pareto fronts

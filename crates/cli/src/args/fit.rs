@@ -8,9 +8,9 @@ use foveate_explore::{Constraints, CostObjective, Disturbance, NetworkGoal};
 use foveate_inference::VisionOptions;
 
 use super::check::{ClockFrequency, FramesPerSecond};
-use super::clocks::ProcessArgs;
 use super::infer::VisionArgs;
 use super::input::InputArgs;
+use super::process::ProcessArgs;
 use super::threads::ThreadArgs;
 use super::{DesignArgs, at_least_one};
 use crate::error::CliError;

@@ -3,18 +3,16 @@
 //! are. Standard input feeds only one argument ([`refuse_second_reader`]), and an output
 //! replaces none of the inputs ([`check_output`]).
 
-use super::{DesignArgs, at_least_one};
+use super::at_least_one;
 use crate::error::CliError;
 use crate::{interrupt, notice};
 use clap::error::ErrorKind;
 use clap::{ArgMatches, Args, Command, Error, ValueEnum};
-use foveate_design::Design;
 use foveate_media::{
-    BayerPattern, ClipPlan, ClipPlayer, CropRect, FrameRate, FrameSelection, ImageRelation,
-    InputOptions, InputWarnings, LumaRange, MAX_SIDE, Orientation, PlaybackError, RawLayout,
-    TimestampUnit, TimestampsFile, input_warnings, parse_time, plan,
+    BayerPattern, ClipPlan, CropRect, FrameRate, FrameSelection, ImageRelation, InputOptions,
+    InputWarnings, LumaRange, MAX_SIDE, Orientation, RawLayout, TimestampUnit, TimestampsFile,
+    input_warnings, parse_time, plan,
 };
-use foveate_pixels::Frame;
 use foveate_tools::{FolderKind, StagedFolder};
 use std::path::{Path, PathBuf};
 
@@ -243,30 +241,6 @@ fn parse_crop(text: &str) -> Result<CropRect, String> {
     let mut next = || parts.next().and_then(|part| part.parse().ok());
     let at = next().zip(next()).ok_or_else(wrong)?;
     if parts.next().is_some() { Err(wrong()) } else { Ok(CropRect { size, origin: at }) }
-}
-
-impl DesignArgs {
-    /// Returns the design with the size of the inputs, and at most `at_most` frames of them.
-    /// Without inputs, it returns the design alone.
-    pub(crate) fn with_frames(
-        &self,
-        inputs: &[String],
-        at_most: u32,
-    ) -> Result<(Design, Vec<Frame>), CliError> {
-        if inputs.is_empty() {
-            return Ok((self.design()?, Vec::new()));
-        }
-        let config = self.config()?;
-        let (frames, interrupt) = (Some(at_most), interrupt::stop_request());
-        let options = InputOptions { frames, interrupt, ..InputOptions::default() };
-        warn_about_inputs(inputs, &options);
-        // The inputs are opened only once, because standard input and cameras cannot be read again.
-        let player = ClipPlayer::open(inputs, &config.camera, &options)?;
-        let (width, height) = player.size();
-        let design = config.validate_for_frames(width, height)?;
-        let frames = player.map(|played| Ok(played?.frame.to_frame()?));
-        Ok((design, frames.collect::<Result<_, PlaybackError>>()?))
-    }
 }
 
 /// The arguments of frames and packets, which are read from standard input if they are `-`.

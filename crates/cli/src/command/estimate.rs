@@ -3,6 +3,7 @@
 //! a placed design.
 
 mod compare;
+mod route;
 mod silicon;
 mod synthesis;
 
@@ -24,7 +25,7 @@ pub(crate) fn run(args: &EstimateArgs) -> Result<(), CliError> {
     } else if args.place_and_route.is_empty() {
         estimate_one(args, &flow)
     } else {
-        synthesis::run(args, &flow)
+        route::run(args, &flow)
     }
 }
 

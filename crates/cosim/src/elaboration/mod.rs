@@ -7,20 +7,22 @@
 //! elaborated, and the modules with their parameter values are compared. [`crate::hierarchy`] finds
 //! files that nothing instantiates.
 
+mod array_instance;
 mod variant;
 mod wiring_check;
 mod xml_reader;
 
 use crate::error::CosimError;
 use crate::level::CosimLevel;
+pub(crate) use array_instance::ArrayInstance;
 use foveate_camera::ConfigError;
 use foveate_design::{ArrayStructure, Design};
 use foveate_emit::{Parameter, Prefix, SourceFile, Top};
 use foveate_tools::{Source, Toolchain, verilator};
 use std::collections::BTreeSet;
 use std::io::BufReader;
+pub(crate) use variant::ModuleVariant;
 pub use variant::UnelaboratedVariant;
-pub(crate) use variant::{ArrayInstance, ModuleVariant};
 
 /// The elaborated hierarchy below a top.
 #[derive(Debug, Default)]

@@ -4,7 +4,7 @@
 //! A simulation of a few copies shows what one copy does, and that neighbors are told apart. The
 //! connections of the other copies are read from the elaborated array, however large it is.
 
-use super::variant::{ArrayInstance, PortConnection};
+use super::array_instance::{ArrayInstance, PortConnection};
 use foveate_design::{Design, Port, PortDirection, PortRole};
 use foveate_emit::Top;
 use foveate_model::region_border;

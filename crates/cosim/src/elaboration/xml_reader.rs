@@ -2,7 +2,7 @@
 //! A reader of the hierarchy that Verilator writes as XML: modules, parameters, and the connections
 //! in the top.
 
-use super::variant::{ArrayInstance, ConnectionToken, PortConnection};
+use super::array_instance::{ArrayInstance, ConnectionToken, PortConnection};
 use super::{Elaboration, ModuleVariant};
 use crate::error::CosimError;
 use quick_xml::Reader;

@@ -6,7 +6,7 @@
 
 use self::BeatCount::{AllButOne, One, Some as Many};
 use self::FrameDelivery::{Long, Restarted, Short, Strays, Twice, Unmarked, Whole};
-use super::unused_inputs::Random;
+use super::random::Random;
 use crate::error::CosimError;
 use crate::level::CosimLevel;
 use foveate_design::{Design, Hardware, PipelinedDesign, PixelFeed, RasterDesign, SerialDesign};

@@ -4,8 +4,8 @@
 //! a pipelined array decides, and the scores that it decides on.
 
 use super::frame_feed::FrameFeed;
+use super::random::Random;
 use super::stimulus_pattern::{PatternGenerator, StimulusPattern};
-use super::unused_inputs::Random;
 use crate::error::CosimError;
 use foveate_camera::FeatureKind;
 use foveate_design::{Design, Hardware, PortRole};

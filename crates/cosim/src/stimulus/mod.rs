@@ -19,6 +19,7 @@ mod model_driver;
 mod pattern_scorer;
 mod port_thresholds;
 mod port_zones;
+mod random;
 mod sequence_end;
 mod sequences;
 mod session;
@@ -38,6 +39,7 @@ pub(crate) use frame_generator::{FrameGenerator, PatternAim};
 pub(crate) use model_driver::{ClockReceiver, FrameLimit, ModelDriver, SequenceSurroundings};
 pub(crate) use pattern_scorer::PatternScores;
 pub(crate) use port_zones::ClassChoice;
+pub(crate) use random::Random;
 pub(crate) use sequence_end::SequenceEnd;
 use session::{SequenceLimits, StimulusPace, StimulusPlan, StimulusSession};
 pub(crate) use sink::{SinkPattern, StoreFault};
@@ -45,7 +47,7 @@ use std::sync::atomic::AtomicBool;
 pub(crate) use stimulus_pattern::{PatternGenerator, StimulusPattern, Texture};
 pub(crate) use threshold_ranges::{ThresholdAim, ThresholdAimer, ThresholdRanges};
 pub use unit_frames::UnitFrames;
-pub(crate) use unused_inputs::{Random, UnusedInputs};
+pub(crate) use unused_inputs::UnusedInputs;
 
 /// The largest number of regions of an array. Each is an RPU of the model, with buffers of its own.
 const MAX_REGIONS: u64 = 1 << 16;

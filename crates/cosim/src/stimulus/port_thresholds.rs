@@ -3,8 +3,8 @@
 
 use super::frame_generator::{DecisionPredictor, PatternAim};
 use super::port_zones::{ClassChoice, PortZones};
+use super::random::Random;
 use super::threshold_ranges::{ThresholdAim, ThresholdAimer};
-use super::unused_inputs::Random;
 use foveate_design::{Design, ThresholdSource as Mode};
 use foveate_model::{CoreInput, CycleModel, ThresholdInputs, region_stream};
 use foveate_pixels::Frame;

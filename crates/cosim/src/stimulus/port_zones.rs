@@ -2,7 +2,7 @@
 //! The inputs that only a core with zones has, clock by clock: classes of regions, or words of the
 //! memory of classes, and thresholds of regions that are keen or off.
 
-use super::unused_inputs::Random;
+use super::random::Random;
 use foveate_camera::RegionClass;
 use foveate_design::{CLASSES_PER_WORD, Design, class_word};
 use foveate_model::{ClassMapInputs, ThresholdInputs, ZoneInputs};

@@ -4,10 +4,11 @@
 use super::frame_feed::{FrameFeed, FramePart, GapPattern};
 use super::frame_generator::FrameGenerator;
 use super::model_driver::{ClockReceiver, FrameLimit, ModelDriver, SequenceSurroundings};
+use super::random::Random;
 use super::sequence_end::SequenceEnd;
 use super::sequences::{FrameSequence, sequences};
 use super::sink::SinkPattern;
-use super::unused_inputs::{Random, UnusedInputs};
+use super::unused_inputs::UnusedInputs;
 use crate::error::CosimError;
 use crate::level::CosimLevel;
 use crate::recording::Recorder;

@@ -4,7 +4,8 @@
 //! the words that the core stores ([`ExternalStore`]). The store may lack the word that the
 //! core asks for, or return a wrong one.
 
-use super::unused_inputs::{Random, UnusedInputs};
+use super::random::Random;
+use super::unused_inputs::UnusedInputs;
 use foveate_design::{Design, Hardware, PortRole, RasterTiming};
 use foveate_model::CycleModel;
 use std::collections::VecDeque;

@@ -3,7 +3,7 @@
 //! pixels with differences and counts near the design's thresholds ([`PatternGenerator`]).
 
 use super::pattern_scorer::{PatternScorer, PatternScores};
-use super::unused_inputs::Random;
+use super::random::Random;
 use foveate_camera::SpatialFeature;
 use foveate_design::Design;
 use foveate_model::ThresholdInputs;

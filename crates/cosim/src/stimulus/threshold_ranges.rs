@@ -4,7 +4,7 @@
 //! of its regions will have, or scores that are decided at this clock ([`ThresholdAimer`]).
 
 use super::port_zones::ClassChoice;
-use super::unused_inputs::Random;
+use super::random::Random;
 use foveate_camera::{DenoiseFilter, FeatureKind, SpatialFeature};
 use foveate_design::Design;
 use foveate_model::feature::decisive_level;

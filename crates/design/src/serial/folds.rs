@@ -3,12 +3,9 @@
 //! among them that may be the cheapest. The clocks of a fold come from the rules of the
 //! organization, whose implementation for serial designs ([`OrganizationRules`]) is here, too.
 
-use super::ports::interface;
 use super::{SerialPhase, SerialTiming};
-use crate::organization::{ArrayStructure, ArrayUnit, OrganizationRules};
-use crate::{
-    CoreInterface, Design, DesignTiming, Hardware, Organization, OrganizationConfig, SerialDesign,
-};
+use crate::organization::OrganizationRules;
+use crate::{Design, Hardware, OrganizationConfig, SerialDesign};
 use foveate_camera::ConfigError;
 
 impl Design {
@@ -101,31 +98,5 @@ fn least_steps((phase, steps): &(SerialPhase, u64)) -> u64 {
         | SerialPhase::CompareRaw
         | SerialPhase::FeaturePass(_)
         | SerialPhase::CopyReference => *steps,
-    }
-}
-
-impl OrganizationRules for SerialDesign<'_> {
-    fn unit(&self) -> ArrayUnit {
-        ArrayUnit {
-            name: Organization::Serial.unit_name(),
-            module: "serial_lane",
-            count: self.lanes(),
-            regions: self.fold(),
-            array: ArrayStructure::SharedLogic,
-            // The sequencer is a part of the array, not of a lane.
-            area_module: "rcm",
-        }
-    }
-
-    fn lone_unit(&self) -> Design {
-        self.single_lane_design()
-    }
-
-    fn timing(&self) -> DesignTiming {
-        SerialTiming::from_design(*self).to_design_timing()
-    }
-
-    fn rcm_interface(&self) -> CoreInterface {
-        interface(*self)
     }
 }

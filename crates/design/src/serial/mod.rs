@@ -8,6 +8,7 @@ mod folds;
 mod hardware;
 mod memory;
 mod ports;
+mod rules;
 mod timing;
 
 pub use feature::{BlockMeanDivision, FlowSearch};

@@ -5,9 +5,10 @@ mod axi_top;
 mod register_documents;
 mod register_module;
 mod registers;
+mod rpu_array;
 
-pub use axi_top::{ARRAY_REGISTERS, array_registers, array_scores, array_software, array_table};
 pub use registers::{FieldKind, Register, RegisterField, axi_registers};
+pub use rpu_array::{ARRAY_REGISTERS, array_registers, array_scores, array_software, array_table};
 
 use super::verilog_text::WrappedPort;
 use crate::leaf_files::leaf_files;

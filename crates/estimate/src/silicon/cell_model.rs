@@ -8,7 +8,7 @@ use super::error::SiliconError;
 use super::liberty_text::{LibertyGroup, parse_tables};
 use super::library::LibertyLibrary;
 use super::logic_function::LogicFunction;
-use super::timing::{LookupTable, TableTemplates};
+use super::lookup_table::{LookupTable, TableTemplates};
 
 /// The cells that a netlist uses, in the units of their library.
 #[derive(Clone, Debug)]

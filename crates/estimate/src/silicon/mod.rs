@@ -13,6 +13,7 @@ mod leaves;
 mod liberty_text;
 mod library;
 mod logic_function;
+mod lookup_table;
 mod mapping;
 mod net_names;
 mod report;
@@ -29,9 +30,10 @@ pub use job::{SiliconJob, check_libraries, map_to_silicon};
 pub use leaves::SiliconLeaf;
 pub use library::LibertyLibrary;
 pub use logic_function::LogicFunction;
+pub use lookup_table::LookupTable;
 pub use mapping::{MacroChoice, MemoryFigures};
 pub use report::{
     LibraryFigures, MemoryTotals, NOT_INCLUDED, SILICON_FORMAT_VERSION, SiliconReport, UnitFigures,
     render_silicon_markdown, render_silicon_text,
 };
-pub use timing::{LookupTable, SiliconPath};
+pub use timing::SiliconPath;

@@ -19,8 +19,8 @@ use super::threshold_search::{ThresholdChoice, ThresholdSearch};
 use crate::ExploreError;
 use crate::footage::ExplorationFootage;
 use crate::measure::CameraMeasurement;
+use crate::progress::measuring_progress;
 use crate::row::{count_to_f64, sum_tallies};
-use crate::store::measuring_progress;
 
 /// The sides of regions that are tried besides the task's.
 const SIDES: [u32; 3] = [4, 8, 16];

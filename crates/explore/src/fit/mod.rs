@@ -54,7 +54,7 @@ use foveate_cosim::ActivityClip;
 use foveate_design::{DesignConfig, HardwareConfig, LaneMemoryKind, OrganizationConfig};
 use foveate_media::{ClipHalves, InputOptions, RunHooks, RunMonitor};
 
-use super::store::reading_progress;
+use super::progress::reading_progress;
 use crate::cost::Synthesizer;
 use crate::footage::ExplorationFootage;
 use crate::target_process::{EnergyClips, TargetProcess};

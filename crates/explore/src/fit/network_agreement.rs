@@ -13,8 +13,8 @@ use super::decision_rates::{frame_group, group_count, group_margin, share_of_oth
 use super::search_frames::{ClipPart, spread_evenly};
 use crate::ExploreError;
 use crate::footage::ExplorationFootage;
+use crate::progress::network_progress;
 use crate::row::count_to_f64;
-use crate::store::network_progress;
 use foveate_camera::{Camera, CameraConfig};
 use foveate_engine::Engine;
 use foveate_inference::{

@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::queue::nearest_rank;
+use super::windows::nearest_rank;
 use crate::link::{LinkUnit, Timeline, WindowRates, send_over_link};
 
 /// The lengths of the windows in ms.

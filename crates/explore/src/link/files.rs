@@ -4,7 +4,7 @@
 use foveate_output::tables::{NamedCells, Table, TableCell};
 use foveate_tools::StagedFolder;
 
-use super::clip::frame_ranges;
+use super::frame_ranges::frame_ranges;
 use super::report::charts;
 use crate::link::{
     ClipReport, CurvePoint, LinkError, LinkReport, Quality, SenderReport, UnbufferedFigures,

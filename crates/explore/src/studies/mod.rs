@@ -10,6 +10,7 @@
 mod error;
 mod findings;
 mod number;
+mod rank;
 mod report;
 mod runner;
 mod study;
@@ -17,6 +18,6 @@ mod table;
 mod tally;
 
 pub use error::StudyError;
+pub use rank::spearman;
 pub use report::{STUDY_FOLDER, StudyReport, StudyRequest, analyze};
 pub use study::Study;
-pub use tally::spearman;

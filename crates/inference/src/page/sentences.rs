@@ -13,7 +13,6 @@ use crate::{
 use foveate_design::Design;
 use foveate_network::ExecutionMode;
 use foveate_output::number_text::{counted, grouped};
-use foveate_tools::escaping::shell_word;
 use std::path::Path;
 
 /// The number of inputs that are named; the others are counted.
@@ -375,29 +374,4 @@ fn tuning_sentence(summary: &InferenceSummary, tuning: &TuningSummary) -> String
         share_text(tuning.exact.needed_share),
         tuning.goal
     )
-}
-
-/// Joins the words, and quotes those that a shell would split or expand.
-pub(super) fn shell_command(words: &[String]) -> String {
-    words.iter().map(|word| shell_word(word)).collect::<Vec<_>>().join(" ")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_shell_reads_the_words_back() {
-        let words =
-            ["foveate", "infer", "my net.onnx", "it's <&>.mp4", "", "--tune", "psnr=40", "$HOME"];
-        let words = words.map(str::to_owned);
-        let line = shell_command(&words);
-        assert!(line.starts_with("foveate infer 'my net.onnx' "), "{line}");
-        assert!(line.ends_with(" '' --tune psnr=40 '$HOME'"), "{line}");
-        let told = std::process::Command::new("sh")
-            .args(["-c", &format!("printf '%s\\n' {line}")])
-            .output()
-            .unwrap();
-        assert_eq!(String::from_utf8(told.stdout).unwrap(), words.join("\n") + "\n");
-    }
 }

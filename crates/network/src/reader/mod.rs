@@ -9,6 +9,7 @@ mod constant_folding;
 mod constant_selection;
 mod constant_values;
 mod graph;
+mod memory;
 mod model_folder;
 mod network_input;
 mod node;
@@ -19,6 +20,7 @@ mod reductions;
 mod reshaping;
 mod scales;
 mod schema;
+mod transposed_conv;
 
 use crate::error::NetworkError;
 use crate::network::Network;
@@ -163,7 +165,7 @@ fn read_model_graph(
 }
 
 fn decode_model(bytes: &[u8], path: &Path) -> Result<ModelProto, NetworkError> {
-    let memory = graph::model_memory(bytes);
+    let memory = memory::model_memory(bytes);
     if memory > MAX_MESSAGE_BYTES {
         return Err(NetworkError::InvalidNetwork(format!(
             "it may take {} MiB of memory to read; at most {} are supported",

@@ -3,7 +3,8 @@
 
 use super::detection::{Detection, match_detections};
 use super::detector::Detector;
-use super::distance::{FrameFindings, OutputDistance, index_of_largest};
+use super::distance::{OutputDistance, index_of_largest};
+use super::frame_findings::FrameFindings;
 use serde::Serialize;
 
 /// The smallest overlap, as intersection over union, of detections that are the same object.

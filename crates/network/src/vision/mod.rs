@@ -13,6 +13,7 @@ mod detection_format;
 mod detector;
 mod distance;
 mod error;
+mod frame_findings;
 mod frame_input;
 mod framing;
 mod network_defaults;
@@ -25,8 +26,9 @@ pub use agreement::{
 pub use detection::{Detection, match_detections};
 pub use detection_format::{DetectionFormat, OutputTensor};
 pub use detector::{Detector, parse_detector};
-pub use distance::{FrameFindings, OutputDistance, index_of_largest, psnr};
+pub use distance::{OutputDistance, index_of_largest, psnr};
 pub use error::VisionError;
+pub use frame_findings::FrameFindings;
 pub use frame_input::{FrameFormat, FrameInput, PixelMapping, parse_mean, parse_scale};
 pub use framing::{Framing, parse_framing};
 pub use network_defaults::{NetworkDefaults, guess_defaults};

@@ -7,15 +7,16 @@ use std::time::Duration;
 
 use super::agreement::{AgreementSums, DetectionCounts, DetectionPairs};
 use super::detector::Detector;
-use super::distance::{FindingsReader, FrameFindings};
 use super::error::VisionError;
+use super::frame_findings::{FindingsReader, FrameFindings};
 use super::frame_input::{FrameFormat, FrameInput, PixelMapping};
 use super::framing::{FrameScaling, Framing};
 use super::network_defaults::NetworkDefaults;
 use crate::error::NetworkError;
-use crate::executor::{ExecutionMode, Executor, OptionalInstant};
+use crate::executor::{ExecutionMode, Executor};
 use crate::mask::Mask;
 use crate::network::Network;
+use crate::optional_instant::OptionalInstant;
 use crate::reader::{FrameSize, OpenFile};
 use foveate_pixels::FramePixels;
 

@@ -2,6 +2,7 @@
 //! The frames of a scene, which are computed one at a time.
 
 use crate::Frame;
+use crate::scenes::noise;
 
 use crate::scenes::canvas::Canvas;
 use crate::scenes::street::{Street, TimeOfDay};
@@ -51,7 +52,7 @@ impl SceneFrames {
             }
             (Scene::Shake, Some(street)) => {
                 let span = 2 * shake_reach(&self.size) + 1;
-                let shift = |axis| patterns::pick(0x5AAE, t, axis, 0, span);
+                let shift = |axis| noise::pick(0x5AAE, t, axis, 0, span);
                 self.sensor_frame(street.backdrop(), (shift(0), shift(1)), 0, t)
             }
             _ => self
@@ -64,7 +65,7 @@ impl SceneFrames {
     fn sensor_frame(&self, canvas: &Canvas, corner: (u32, u32), amplitude: i32, t: u32) -> Frame {
         self.frame_from_pixels(|x, y| {
             let light = i32::from(canvas.get(x + corner.0, y + corner.1));
-            let noisy = light + amplitude * patterns::normal_noise(0x5EED, t, x, y);
+            let noisy = light + amplitude * noise::normal_noise(0x5EED, t, x, y);
             u32::try_from(noisy.clamp(0, 65_535)).expect("not negative") >> (16 - self.size.bits)
         })
     }

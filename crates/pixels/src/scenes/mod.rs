@@ -9,6 +9,7 @@
 mod canvas;
 mod error;
 mod frames;
+mod noise;
 mod patterns;
 mod scene;
 mod street;

@@ -20,7 +20,7 @@ use std::sync::Arc;
 use foveate_design::RasterTiming;
 
 use super::staleness::RowStaleness;
-use crate::sink::NEVER;
+use crate::delivery::NEVER;
 use crate::{RegionLoss, RegionRun, SentKind, SentValues, Sink, Transaction, WordRun};
 
 /// A region that sends pixels or means.

@@ -4,7 +4,7 @@
 
 use std::collections::VecDeque;
 
-use crate::sink::NEVER;
+use crate::delivery::NEVER;
 
 /// The edges at which the first words of rows of regions are stored.
 #[derive(Debug)]

@@ -7,12 +7,13 @@
 
 mod compiler;
 
+use crate::port_widths;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::staging::ScratchFolder;
 
-use super::yosys::{self, PortBits};
+use super::port_widths::PortBits;
 use crate::cache::Cache;
 use crate::cache_key::CacheKey;
 use crate::error::ToolError;
@@ -184,7 +185,7 @@ fn build_in(
     toolchain.run_checked(&invocation)?;
     let header = dir.join(format!("{}.h", job.prefix()));
     let header = fs::read_to_string(&header).map_err(ToolError::io("read", &header))?;
-    yosys::check_header(&job.top, &header, &job.port_bits)?;
+    port_widths::check_header(&job.top, &header, &job.port_bits)?;
     source_files::write_file(dir, MAIN, job.cpp_main.as_bytes())?;
     let makefile = MakefileLists::read(dir, &job.prefix())?;
     let compiler = ModelCompiler::new(toolchain, &makefile.include, job.trace)?;

@@ -3,16 +3,10 @@
 //! comparison ([`SynthesisTools`]), and, with `--place-and-route`, for the clock that a design
 //! reaches on a device ([`run`]).
 
-use crate::args::{DesignPart, EstimateArgs};
 use crate::error::CliError;
-use crate::output;
-use crate::progress::Progress;
 use foveate_design::Design;
 use foveate_emit::Top;
-use foveate_estimate::{
-    AreaReport, EstimateJob, RouteJob, estimate, place_and_route, render_routes_markdown,
-    render_routes_text,
-};
+use foveate_estimate::{AreaReport, EstimateJob, estimate};
 use foveate_tools::{Cache, Toolchain};
 
 /// The tools that every synthesis needs.
@@ -26,41 +20,5 @@ impl SynthesisTools {
         let job = EstimateJob::for_design(design, Top::Rcm);
         let job = if leaves { job.with_leaves(design) } else { job };
         Ok(estimate(&self.toolchain, &self.cache, &job)?)
-    }
-}
-
-const NOT_ON_AXI: &str = "--level axi is for a core on AXI; this design has hardware.interface = \"ports\", so set it to \"axi\"";
-
-pub(super) fn run(args: &EstimateArgs, flow: &SynthesisTools) -> Result<(), CliError> {
-    let design = args.design.design()?;
-    let job = route_job(args, &design)?;
-    let progress = Progress::new(args.quiet);
-    progress.report_work("placing and routing with nextpnr");
-    let report = place_and_route(&flow.toolchain, &flow.cache, &job, &args.place_and_route);
-    progress.finish();
-    let report = report?;
-    if args.json {
-        output::print_json(&report)?;
-    } else if args.markdown {
-        output::print_text(&render_routes_markdown(&report))?;
-    } else {
-        output::print_text(&render_routes_text(&report, output::text_width()))?;
-    }
-    match report.shortage_sentences().as_slice() {
-        [] => Ok(()),
-        misfits => Err(CliError::Failed(misfits.join("; "))),
-    }
-}
-
-/// Returns the job to place. Without `--level` it is the core on AXI if the design is one, and one
-/// RPU otherwise.
-fn route_job(args: &EstimateArgs, design: &Design) -> Result<RouteJob, CliError> {
-    let of = |top| RouteJob::of(design, top, args.seeds, args.portable);
-    let on_bus = || RouteJob::for_axi_core(design, args.seeds, args.portable);
-    match args.level {
-        None => Ok(on_bus().unwrap_or_else(|| of(Top::Rpu))),
-        Some(DesignPart::Rpu) => Ok(of(Top::Rpu)),
-        Some(DesignPart::Rcm) => Ok(of(Top::Rcm)),
-        Some(DesignPart::Axi) => on_bus().ok_or_else(|| CliError::Usage(NOT_ON_AXI.to_owned())),
     }
 }

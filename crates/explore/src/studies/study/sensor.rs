@@ -7,9 +7,9 @@
 use super::{Study, refuse_data_sets};
 use crate::studies::StudyError;
 use crate::studies::findings::StudyFindings;
+use crate::studies::rank::spearman;
 use crate::studies::runner::{FrameAnnotator, StudyRunner};
 use crate::studies::table::StudyTable;
-use crate::studies::tally::spearman;
 use csv::{ErrorKind, ReaderBuilder, StringRecord, Trim};
 use foveate_design::Design;
 use foveate_media::boxes::BoxView;

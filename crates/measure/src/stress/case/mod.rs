@@ -3,6 +3,7 @@
 
 mod agreement;
 mod arithmetic;
+mod long_runs;
 mod references;
 mod summaries;
 mod thresholds;
@@ -29,5 +30,5 @@ pub(crate) const ALL_CASES: &[CaseFunction] = &[
     agreement::depths,
     agreement::gaps_and_resets,
     agreement::means,
-    references::long_runs,
+    long_runs::long_runs,
 ];

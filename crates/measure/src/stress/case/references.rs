@@ -4,8 +4,7 @@
 //! wrap thousands of times, and frame numbers exceed 8 and 16 bits, in case a counter is too
 //! narrow ([`long_runs`]).
 
-use crate::stress::designs::{RandomNumbers, config, design, design_matrix, frame_from_fn};
-use crate::stress::model_comparison::{AgreementTally, compare_models};
+use crate::stress::designs::{config, design, frame_from_fn};
 use crate::stress::{CaseRow, RunDepth};
 use foveate_camera::{DenoiseFilter, FeatureKind, ReferencePolicy};
 use foveate_design::{Design, DesignConfig};
@@ -13,6 +12,7 @@ use foveate_model::{FunctionalCamera, FunctionalOutcome};
 use foveate_pixels::{Frame, Scene, SceneParameters};
 
 const SIDE: u32 = 8;
+
 const SIZE: (u32, u32) = (16, 16);
 
 /// Returns a checked texture whose brightness is `light`. Every region of it is relevant.
@@ -222,28 +222,4 @@ pub(crate) fn invariant_on_scenes(depth: RunDepth) -> Vec<CaseRow> {
     }
     let designs = format!("last-sent, {} scenes, every filter", Scene::ALL.len());
     vec![last_sent_row("screen follows the scene", designs, worst)]
-}
-
-/// Runs more frames than 8 bits can count, and in the full depth more than 16 bits can count.
-pub(crate) fn long_runs(depth: RunDepth) -> Vec<CaseRow> {
-    let frames = depth.choose(300, 66_000);
-    let designs = design_matrix((4, 2), 2, 8);
-    // Random frames alternate with long pauses without changes.
-    let frame =
-        |t: u64| RandomNumbers::new(if t % 100 < 40 { t } else { t / 100 }).frame((4, 2), 8);
-    // One design of each filter, with both neighborhoods, references and payloads.
-    let picked = [0, 5, 26, 31].map(|at: usize| &designs[at.min(designs.len() - 1)]);
-    let tally = picked
-        .iter()
-        .map(|design| compare_models(design, (0..frames).map(frame), false))
-        .fold(AgreementTally::default(), AgreementTally::add);
-    let designs = format!("{} designs, N 2, {frames} frames", picked.len());
-    let counts = (tally.differing, tally.compared);
-    vec![CaseRow::for_no_errors(
-        "long runs",
-        designs,
-        "values differ",
-        counts,
-        u8::from(tally.differing > 0),
-    )]
 }

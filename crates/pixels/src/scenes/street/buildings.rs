@@ -4,7 +4,7 @@
 
 use super::setting::{GROUND, TimeOfDay};
 use crate::scenes::canvas::{OPAQUE, ShapePainter, UNIT};
-use crate::scenes::patterns::pick;
+use crate::scenes::noise::pick;
 
 const SEED: u64 = 0xB01D;
 

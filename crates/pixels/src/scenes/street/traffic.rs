@@ -3,7 +3,7 @@
 
 use super::setting::TimeOfDay;
 use crate::scenes::canvas::{Canvas, OPAQUE, ShapePainter, UNIT};
-use crate::scenes::patterns::pick;
+use crate::scenes::noise::pick;
 
 /// A lane of the road, on which cars follow each other without end.
 struct TrafficLane {

@@ -4,7 +4,7 @@
 
 use super::setting::{GROUND, TimeOfDay};
 use crate::scenes::canvas::{Canvas, OPAQUE, ShapePainter, UNIT, UNITS_HIGH};
-use crate::scenes::patterns::pick;
+use crate::scenes::noise::pick;
 
 const SEED: u64 = 0x3EA7;
 
