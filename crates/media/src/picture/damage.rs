@@ -19,3 +19,9 @@ impl PictureFault {
         Self::Damaged(problem.into())
     }
 }
+
+/// Fails with this damage unless the format's rule holds.
+#[inline]
+pub(super) fn require(holds: bool, problem: &str) -> Result<(), PictureFault> {
+    if holds { Ok(()) } else { Err(PictureFault::damaged(problem)) }
+}

@@ -1,215 +1,169 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The check of the coded data of one scan, block by block, without computing a pixel. The
-//! header and the end of a JPEG, found without its codes.
+//! The frame of a JPEG and its scans, which are followed block by block without computing a pixel.
 
-use super::bits::{BitReader, HuffmanTable, marker_at};
-use super::block::{BlockChecker, SpectralBand};
-use super::frame::{CodingProcess, FrameHeader};
-use super::segment;
-use crate::picture::conversion::ImageOutline;
-use crate::picture::damage::PictureFault;
+use super::codes::{BlockChecker, CodedRun, HuffmanTable, SpectralBand};
+use crate::limits::MAX_SIDE;
+use crate::picture::damage::{PictureFault, require};
 
 /// The Huffman tables and the restart interval that the segments before a scan defined.
 #[derive(Default)]
-pub(super) struct HuffmanTables {
-    pub(super) dc: [Option<HuffmanTable>; 4],
-    pub(super) ac: [Option<HuffmanTable>; 4],
+pub(super) struct ScanTables {
+    /// The tables of the first coefficient, and those of the others.
+    pub(super) classes: [[Option<HuffmanTable>; 4]; 2],
     /// The number of units between two restart markers; 0 means that there are none.
-    pub(super) interval: u32,
+    pub(super) interval: usize,
 }
 
-struct ScanComponent {
-    /// The index of the component in the frame.
-    component: usize,
-    dc: usize,
-    ac: usize,
+/// A component of the picture, such as its luma. Sizes are across and down.
+struct FrameComponent {
+    id: u8,
+    /// The blocks in a unit of an interleaved scan.
+    sampling: [usize; 2],
+    /// The blocks that have pixels.
+    blocks: [usize; 2],
+    /// The number of blocks in a row, including those that complete the last unit.
+    stride: usize,
+    /// One bit per coefficient that is not zero, in file order, for each block.
+    nonzero: Vec<u64>,
+    /// The lowest bit that was sent of each coefficient.
+    sent: [Option<u8>; 64],
 }
 
-pub(super) struct ScanHeader {
-    parts: Vec<ScanComponent>,
-    band: SpectralBand,
+/// The index of a component in the frame, and the names of its tables in each class.
+type ScanComponent = (usize, [usize; 2]);
+
+pub(super) struct Frame {
+    is_progressive: bool,
+    /// The numbers of units across and down in an interleaved scan.
+    units: [usize; 2],
+    components: Vec<FrameComponent>,
 }
 
-impl ScanHeader {
-    /// Reads the segment of a marker SOS.
-    pub(super) fn read(frame: &FrameHeader, segment: &[u8]) -> Result<Self, PictureFault> {
-        let wrong = || PictureFault::damaged("the header of a scan (SOS) is wrong");
-        let (&count, rest) = segment.split_first().ok_or_else(wrong)?;
-        let count = usize::from(count);
-        if !(1..=frame.components.len()).contains(&count) || rest.len() < 2 * count + 3 {
+impl Frame {
+    /// Reads the segment of a marker SOF0, SOF1 or SOF2. Returns `None` for pictures that this
+    /// check does not follow: other depths than 8 bits, a height that comes later, and sizes beyond
+    /// the limits.
+    pub(super) fn read(marker: u8, segment: &[u8]) -> Result<Option<Self>, PictureFault> {
+        let wrong = || PictureFault::damaged("the header of its frame (SOF) is wrong");
+        let &[depth, h1, h0, w1, w0, count, ref parts @ ..] = segment else { return Err(wrong()) };
+        let size = [[w1, w0], [h1, h0]].map(|side| usize::from(u16::from_be_bytes(side)));
+        if depth != 8 || size.iter().any(|side| !(1..=MAX_SIDE as usize).contains(side)) {
+            return Ok(None);
+        }
+        if !(1..=4).contains(&count) || parts.len() != 3 * usize::from(count) {
             return Err(wrong());
         }
-        let (named, last) = rest.split_at(2 * count);
-        let mut parts: Vec<ScanComponent> = Vec::new();
-        for pair in named.chunks_exact(2) {
-            let component = frame.components.iter().position(|known| known.id == pair[0]);
-            let component = component.ok_or_else(wrong)?;
-            let (dc, ac) = (usize::from(pair[1] >> 4), usize::from(pair[1] & 15));
-            if dc > 3 || ac > 3 || parts.iter().any(|part| part.component == component) {
-                return Err(wrong());
-            }
-            parts.push(ScanComponent { component, dc, ac });
+        let parts = parts.chunks_exact(3);
+        let sampling = |part: &[u8]| [part[1] >> 4, part[1] & 15].map(usize::from);
+        if parts.clone().flat_map(sampling).any(|blocks| !(1..=4).contains(&blocks)) {
+            return Err(wrong());
         }
-        let band = match frame.process {
-            CodingProcess::Sequential => {
-                SpectralBand { first: 0, last: 63, previous_low_bit: 0, low_bit: 0 }
-            }
-            CodingProcess::Progressive => {
-                let band = SpectralBand {
-                    first: last[0],
-                    last: last[1],
-                    previous_low_bit: last[2] >> 4,
-                    low_bit: last[2] & 15,
-                };
-                let of_one = if band.first == 0 { band.last == 0 } else { count == 1 };
-                let refines =
-                    band.previous_low_bit == 0 || band.previous_low_bit == band.low_bit + 1;
-                if band.first > band.last
-                    || band.last > 63
-                    || band.low_bit > 13
-                    || !of_one
-                    || !refines
-                {
-                    return Err(wrong());
-                }
-                band
+        let most = [0, 1].map(|axis| parts.clone().map(|part| sampling(part)[axis]).max());
+        let most = most.map(|most| most.unwrap_or(1));
+        let units = [0, 1].map(|axis| size[axis].div_ceil(8 * most[axis]));
+        let component = |part: &[u8]| {
+            let own = sampling(part);
+            let stride = units[0] * own[0];
+            FrameComponent {
+                id: part[0],
+                sampling: own,
+                blocks: [0, 1].map(|axis| (size[axis] * own[axis]).div_ceil(8 * most[axis])),
+                stride,
+                nonzero: vec![0; stride * units[1] * own[1]],
+                sent: [None; 64],
             }
         };
-        Ok(Self { parts, band })
+        let components = parts.map(component).collect();
+        Ok(Some(Self { is_progressive: marker == 0xC2, units, components }))
     }
 
-    /// Follows the data from `at` to the marker after it. Returns the position of that marker.
+    /// Returns true if every component has been sent down to its lowest bits.
+    pub(super) fn is_complete(&self) -> bool {
+        let sent = |component: &FrameComponent| {
+            component.sent[0].is_some() && component.sent.iter().flatten().all(|&low| low == 0)
+        };
+        self.components.iter().all(sent)
+    }
+
+    /// Follows the scan with this header, whose data begin at `at`. Returns the position of the
+    /// marker after it.
     pub(super) fn follow(
-        &self,
-        frame: &mut FrameHeader,
-        tables: &HuffmanTables,
+        &mut self,
+        header: &[u8],
+        tables: &ScanTables,
         bytes: &[u8],
         at: usize,
     ) -> Result<usize, PictureFault> {
-        self.record_sent_bits(frame)?;
-        let units = match self.parts.as_slice() {
-            [alone] => frame.components[alone.component].blocks,
-            _ => frame.units,
+        let (parts, band) = self.read_scan(header)?;
+        let units = match parts.as_slice() {
+            [(alone, _)] => self.components[*alone].blocks,
+            _ => self.units,
         };
-        let total = u64::from(units.0) * u64::from(units.1);
-        let mut bits = BitReader::new(bytes, at);
-        let mut block = BlockChecker::new(self.band, frame.process);
-        let mut done = 0;
-        let mut restarts = 0;
-        for y in 0..units.1 {
-            for x in 0..units.0 {
-                self.follow_unit(frame, tables, (x, y), &mut block, &mut bits)?;
-                done += 1;
-                let due = tables.interval > 0 && done % u64::from(tables.interval) == 0;
-                if due && done < total {
-                    block.restart()?;
-                    let next = skip_restart_marker(&mut bits, bytes, restarts)?;
-                    bits.restart(next);
-                    restarts = (restarts + 1) % 8;
+        let mut block = BlockChecker::new(band, CodedRun::new(bytes, at));
+        for unit in 0..units[0] * units[1] {
+            let restarts = unit.checked_div(tables.interval).unwrap_or(0);
+            if restarts > 0 && unit % tables.interval == 0 {
+                let (marker, next) = block.end_run()?;
+                let due = [0xD7, 0xD0, 0xD1, 0xD2, 0xD3, 0xD4, 0xD5, 0xD6][restarts % 8];
+                if marker != due {
+                    return Err(PictureFault::damaged(format!(
+                        "marker {marker:02X} stands where restart marker {due:02X} should be"
+                    )));
+                }
+                block.run = CodedRun::new(bytes, next);
+            }
+            for (place, &(component, names)) in parts.iter().enumerate() {
+                let component = &mut self.components[component];
+                let [across, down] = if parts.len() == 1 { [1, 1] } else { component.sampling };
+                let tables = [0, 1].map(|class| tables.classes[class][names[class]].as_ref());
+                for inner in 0..across * down {
+                    let x = unit % units[0] * across + inner % across;
+                    let y = unit / units[0] * down + inner / across;
+                    let nonzero = &mut component.nonzero[y * component.stride + x];
+                    block.follow(place, tables, nonzero)?;
                 }
             }
         }
-        block.restart()?;
-        bits.end_run()
+        block.end_run().map(|_| block.run.after)
     }
 
-    fn follow_unit(
-        &self,
-        frame: &mut FrameHeader,
-        tables: &HuffmanTables,
-        (x, y): (u32, u32),
-        block: &mut BlockChecker,
-        bits: &mut BitReader<'_>,
-    ) -> Result<(), PictureFault> {
-        for (place, part) in self.parts.iter().enumerate() {
-            let component = &mut frame.components[part.component];
-            let (across, down) = if self.parts.len() == 1 { (1, 1) } else { component.sampling };
-            let tables = (tables.dc[part.dc].as_ref(), tables.ac[part.ac].as_ref());
-            for row in 0..down {
-                for column in 0..across {
-                    let at = (y * down + row) * component.stride + x * across + column;
-                    let mut none = 0;
-                    let nonzero = component.nonzero.get_mut(at as usize).unwrap_or(&mut none);
-                    block.follow(place, tables, nonzero, bits)?;
-                }
+    /// Reads the segment of a marker SOS, and records what the scan sends.
+    fn read_scan(
+        &mut self,
+        segment: &[u8],
+    ) -> Result<(Vec<ScanComponent>, SpectralBand), PictureFault> {
+        let wrong = || PictureFault::damaged("the header of a scan (SOS) is wrong");
+        let (&count, rest) = segment.split_first().ok_or_else(wrong)?;
+        let (named, band) = rest.split_at_checked(2 * usize::from(count)).ok_or_else(wrong)?;
+        let &[first, last, bits, ..] = band else { return Err(wrong()) };
+        let band = if self.is_progressive {
+            SpectralBand { first, last, previous_low_bit: bits >> 4, low_bit: bits & 15 }
+        } else {
+            SpectralBand { first: 0, last: 63, previous_low_bit: 0, low_bit: 0 }
+        };
+        let SpectralBand { first, last, previous_low_bit, low_bit } = band;
+        let of_one = if first == 0 { last == 0 } else { count == 1 };
+        let refines = previous_low_bit == 0 || previous_low_bit == low_bit + 1;
+        let fits = first <= last && last <= 63 && low_bit <= 13;
+        if count == 0 || self.is_progressive && !(of_one && refines && fits) {
+            return Err(wrong());
+        }
+        let mut parts: Vec<ScanComponent> = Vec::new();
+        for pair in named.chunks_exact(2) {
+            let index = self.components.iter().position(|known| known.id == pair[0]);
+            let index = index.ok_or_else(wrong)?;
+            let tables = [pair[1] >> 4, pair[1] & 15].map(usize::from);
+            if tables.iter().any(|&name| name > 3) || parts.iter().any(|part| part.0 == index) {
+                return Err(wrong());
             }
-        }
-        Ok(())
-    }
-
-    /// Records which bits of the coefficients this scan sends. Each coefficient is sent once or, in
-    /// a progressive picture, from its high bits to its low bits.
-    fn record_sent_bits(&self, frame: &mut FrameHeader) -> Result<(), PictureFault> {
-        let SpectralBand { first, last, previous_low_bit: high, low_bit: low } = self.band;
-        for part in &self.parts {
-            let sent = &mut frame.components[part.component].sent;
-            let mut known = sent[usize::from(first)..=usize::from(last)].iter_mut();
-            let fits = |before: &Option<u8>| match high {
-                0 => before.is_none(),
-                high => *before == Some(high),
-            };
-            if !known.all(|before| {
-                let fits = fits(before);
-                *before = Some(low);
-                fits
-            }) {
-                return Err(PictureFault::damaged("a scan does not continue the earlier scans"));
+            // Each coefficient is sent once or, in a progressive picture, bit by bit.
+            for sent in &mut self.components[index].sent[first.into()..=last.into()] {
+                let due = sent.map_or(0, |low| if low == 0 { 16 } else { low });
+                require(previous_low_bit == due, "a scan does not continue the earlier scans")?;
+                *sent = Some(low_bit);
             }
+            parts.push((index, tables));
         }
-        Ok(())
+        Ok((parts, band))
     }
-}
-
-/// Skips the restart marker with this number. Returns the position after it.
-fn skip_restart_marker(
-    bits: &mut BitReader<'_>,
-    bytes: &[u8],
-    number: u8,
-) -> Result<usize, PictureFault> {
-    match marker_at(bytes, bits.end_run()?) {
-        Some((marker, next)) if marker == 0xD0 + number => Ok(next),
-        Some((marker, _)) => Err(PictureFault::damaged(format!(
-            "marker {marker:02X} stands where restart marker {:02X} should be",
-            0xD0 + number
-        ))),
-        None => Err(PictureFault::truncated("it has no end marker (EOI)")),
-    }
-}
-
-/// The segment that announces further pictures in a file, such as the second one of a stereo photo.
-const MULTI_PICTURE: (u8, &[u8]) = (0xE2, b"MPF\0");
-
-/// Returns the outline of a JPEG. Returns `None` if it has no header, and for a photo with further
-/// pictures.
-pub(in crate::picture) fn outline(bytes: &[u8]) -> Option<ImageOutline<'_>> {
-    let mut header = None;
-    // The start marker SOI has two bytes.
-    let mut at = 2;
-    while let Some((marker, next)) = marker_at(bytes, at) {
-        at = next;
-        match marker {
-            0xD9 => return Some(ImageOutline { header: header?, after: bytes.get(at..) }),
-            0x01 | 0xD0..=0xD7 => continue,
-            0xD8 => break,
-            _ => {}
-        }
-        let Ok(content) = segment(bytes, at) else { break };
-        let start = at;
-        at += 2 + content.len();
-        match marker {
-            _ if marker == MULTI_PICTURE.0 && content.starts_with(MULTI_PICTURE.1) => return None,
-            // DHT, JPG and DAC lie between the headers of frames.
-            0xC4 | 0xC8 | 0xCC => {}
-            // The header tells the kind of JPEG by its marker.
-            0xC0..=0xCF => header = bytes.get(start - 1..at),
-            0xDA => {
-                let is_marker =
-                    |pair: &[u8]| pair[0] == 0xFF && !matches!(pair[1], 0 | 0xFF | 0xD0..=0xD7);
-                let Some(length) = bytes[at..].windows(2).position(is_marker) else { break };
-                at += length;
-            }
-            _ => {}
-        }
-    }
-    Some(ImageOutline { header: header?, after: None })
 }
