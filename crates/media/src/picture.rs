@@ -97,12 +97,14 @@ fn decode_image(bytes: &[u8], path: &Path) -> Result<DynamicImage, FootageError>
     limits.max_image_width = Some(MAX_SIDE);
     limits.max_image_height = Some(MAX_SIDE);
     limits.max_alloc = Some(MAX_FILE_GIB << 30);
-    let image = if format == ImageFormat::Jpeg {
-        jpeg::decode(bytes, limits)
-    } else {
-        let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
-        reader.limits(limits);
-        reader.decode()
+    let image = match format {
+        ImageFormat::Png => png::decode(bytes, limits),
+        ImageFormat::Jpeg => jpeg::decode(bytes, limits),
+        _ => {
+            let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+            reader.limits(limits);
+            reader.decode()
+        }
     };
     let image = image.map_err(|error| decoder_error(path, &error))?;
     // The decoder has read these headers within the limits.

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The check that a PNG is complete: every chunk has a correct checksum, there is an end chunk, and
-//! the compressed data has the length of the pixels and a correct checksum. The decoder stops at
-//! the last pixel, and ignores the checksums of chunks that it does not need.
+//! The decoder of PNG and its check that a file is complete: every chunk has a correct checksum, and
+//! there is an end chunk. The decoder ignores the checksums of chunks that it does not need.
 
-use std::io::{self, Read};
+use std::io::Cursor;
 
-use flate2::bufread::ZlibDecoder;
+use image::error::{DecodingError, ImageError, ImageResult, LimitError, LimitErrorKind};
+use image::{DynamicImage, ImageBuffer, ImageFormat, Limits, Pixel};
+use png::{BitDepth, ColorType, DecodeOptions, Decoder, Transformations};
 
 use super::conversion::ImageOutline;
 use super::damage::PictureFault;
-use crate::limits::{MAX_FILE_GIB, MAX_SIDE};
 
 const SIGNATURE: usize = 8;
 
@@ -22,21 +22,67 @@ struct PngChunk<'a> {
 /// Finds damage between the signature and the end chunk; bytes after it are ignored.
 pub(super) fn check(bytes: &[u8]) -> Result<(), PictureFault> {
     let mut rest = bytes.get(SIGNATURE..).unwrap_or_default();
-    let mut header = None;
-    let mut pixels: Vec<&[u8]> = Vec::new();
-    loop {
-        let chunk = next_chunk(&mut rest)?;
-        match &chunk.name {
-            b"IHDR" => header = Some(chunk.data),
-            b"IDAT" => pixels.push(chunk.data),
-            b"IEND" => break,
-            _ => {}
+    while &next_chunk(&mut rest)?.name != b"IEND" {}
+    Ok(())
+}
+
+/// Decodes a PNG, and checks the checksum of its compressed pixels. Palettes become colours, and
+/// samples of fewer than 8 bits get 8 bits.
+///
+/// # Errors
+/// Fails if the picture is larger than the limits, or damaged.
+pub(super) fn decode(bytes: &[u8], mut limits: Limits) -> ImageResult<DynamicImage> {
+    let mut options = DecodeOptions::default();
+    options.set_ignore_checksums(false);
+    let mut decoder = Decoder::new_with_options(Cursor::new(bytes), options);
+    let most = limits.max_alloc.and_then(|most| most.try_into().ok());
+    decoder.set_limits(png::Limits { bytes: most.unwrap_or(usize::MAX) });
+    decoder.set_transformations(Transformations::EXPAND);
+    let (width, height) = decoder.read_header_info().map_err(error)?.size();
+    limits.check_dimensions(width, height)?;
+    let mut reader = decoder.read_info().map_err(error)?;
+    let length = reader.output_buffer_size().unwrap_or(usize::MAX);
+    limits.reserve_usize(length)?;
+    let mut bytes = vec![0; length];
+    let (colours, depth) = reader.output_color_type();
+    reader.next_frame(&mut bytes).map_err(error)?;
+    let size = (width, height);
+    Ok(if depth == BitDepth::Sixteen {
+        let words = bytes.chunks_exact(2).map(|word| u16::from_be_bytes([word[0], word[1]]));
+        let words = words.collect();
+        match colours {
+            ColorType::Grayscale => image(size, words, DynamicImage::ImageLuma16),
+            ColorType::GrayscaleAlpha => image(size, words, DynamicImage::ImageLumaA16),
+            ColorType::Rgba => image(size, words, DynamicImage::ImageRgba16),
+            ColorType::Rgb | ColorType::Indexed => image(size, words, DynamicImage::ImageRgb16),
         }
-    }
-    // If there is no size, or it is beyond the limits, the decoder reports the problem.
-    match header.and_then(raw_length) {
-        Some(length) if length <= MAX_FILE_GIB << 30 => inflate(&pixels, length),
-        _ => Ok(()),
+    } else {
+        match colours {
+            ColorType::Grayscale => image(size, bytes, DynamicImage::ImageLuma8),
+            ColorType::GrayscaleAlpha => image(size, bytes, DynamicImage::ImageLumaA8),
+            ColorType::Rgba => image(size, bytes, DynamicImage::ImageRgba8),
+            ColorType::Rgb | ColorType::Indexed => image(size, bytes, DynamicImage::ImageRgb8),
+        }
+    })
+}
+
+/// Makes an image of the samples of its pixels.
+fn image<P: Pixel>(
+    (width, height): (u32, u32),
+    samples: Vec<P::Subpixel>,
+    kind: fn(ImageBuffer<P, Vec<P::Subpixel>>) -> DynamicImage,
+) -> DynamicImage {
+    let pixels = ImageBuffer::from_raw(width, height, samples);
+    kind(pixels.expect("the decoder returns every sample"))
+}
+
+fn error(error: png::DecodingError) -> ImageError {
+    match error {
+        png::DecodingError::IoError(error) => ImageError::IoError(error),
+        png::DecodingError::LimitsExceeded => {
+            ImageError::Limits(LimitError::from_kind(LimitErrorKind::InsufficientMemory))
+        }
+        other => ImageError::Decoding(DecodingError::new(ImageFormat::Png.into(), other)),
     }
 }
 
@@ -66,69 +112,4 @@ fn next_chunk<'a>(rest: &mut &'a [u8]) -> Result<PngChunk<'a>, PictureFault> {
     }
     *rest = after;
     Ok(PngChunk { name: *name, data })
-}
-
-/// Returns the number of bytes of all rows with their filter bytes, according to the header.
-fn raw_length(header: &[u8]) -> Option<u64> {
-    /// The first pixel and the step of each pass of Adam7, across and down.
-    const PASSES: [[u32; 4]; 7] = [
-        [0, 8, 0, 8],
-        [4, 8, 0, 8],
-        [0, 4, 4, 8],
-        [2, 4, 0, 4],
-        [0, 2, 2, 4],
-        [1, 2, 0, 2],
-        [0, 1, 1, 2],
-    ];
-    let &[a, b, c, d, e, f, g, h, depth, colour, 0, 0, interlaced] = header else { return None };
-    let (width, height) = (u32::from_be_bytes([a, b, c, d]), u32::from_be_bytes([e, f, g, h]));
-    if width.max(height) > MAX_SIDE {
-        return None;
-    }
-    let samples = match colour {
-        0 | 3 => 1,
-        2 => 3,
-        4 => 2,
-        6 => 4,
-        _ => return None,
-    };
-    let length = |width: u32, height: u32| {
-        let row = u64::from(width) * samples * u64::from(depth);
-        if width == 0 { 0 } else { (row.div_ceil(8) + 1) * u64::from(height) }
-    };
-    let part = |size: u32, first: u32, step: u32| size.saturating_sub(first).div_ceil(step);
-    match interlaced {
-        0 => Some(length(width, height)),
-        1 => Some(
-            PASSES
-                .iter()
-                .map(|&[x, dx, y, dy]| length(part(width, x, dx), part(height, y, dy)))
-                .sum(),
-        ),
-        _ => None,
-    }
-}
-
-/// Unpacks the compressed data, and checks that it has exactly the length of the rows.
-fn inflate(pixels: &[&[u8]], length: u64) -> Result<(), PictureFault> {
-    let packed = pixels.concat();
-    let mut rows = ZlibDecoder::new(packed.as_slice());
-    // One byte more shows that there are too many.
-    let unpacked = io::copy(&mut rows.by_ref().take(length + 1), &mut io::sink());
-    match unpacked {
-        Ok(found) if found < length => Err(PictureFault::truncated(format!(
-            "it has {found} bytes of pixels, but needs {length}"
-        ))),
-        Ok(found) if found > length => {
-            Err(PictureFault::damaged(format!("it has more than the {length} bytes of its pixels")))
-        }
-        Ok(_) if rows.total_in() < packed.len() as u64 => {
-            Err(PictureFault::damaged("there are bytes after its compressed pixels"))
-        }
-        Ok(_) => Ok(()),
-        Err(error) if error.kind() == io::ErrorKind::UnexpectedEof => {
-            Err(PictureFault::truncated("its compressed pixels have no end"))
-        }
-        Err(error) => Err(PictureFault::damaged(format!("its compressed pixels: {error}"))),
-    }
 }
