@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The codes of a scan. Only their lengths count, apart from the means of the blocks, and which
-//! coefficients are not zero.
+//! The codes of a scan. Only their lengths count, and which coefficients are not zero.
 
 use super::segment::marker_at;
 use crate::picture::damage::{PictureFault, require};
@@ -117,8 +116,6 @@ pub(super) struct SpectralBand {
 pub(super) struct BlockChecker {
     pub(super) band: SpectralBand,
     pub(super) run: CodedRun,
-    /// The last mean of every component.
-    means: [i32; 4],
     /// The number of blocks to come that have no code of their own.
     empty_blocks: u32,
     /// The number of blocks whose codes are all zero bits although none of their coefficients is.
@@ -127,22 +124,19 @@ pub(super) struct BlockChecker {
 
 impl BlockChecker {
     pub(super) fn new(band: SpectralBand, run: CodedRun) -> Self {
-        Self { band, run, means: [0; 4], empty_blocks: 0, erased_blocks: 0 }
+        Self { band, run, empty_blocks: 0, erased_blocks: 0 }
     }
 
-    /// Ends a run of blocks and resets the predictions. Returns the result of [`CodedRun::end`].
-    pub(super) fn end_run(&mut self) -> Result<(u8, usize), PictureFault> {
+    /// Ends a run of blocks. Returns the result of [`CodedRun::end`].
+    pub(super) fn end_run(&self) -> Result<(u8, usize), PictureFault> {
         require(self.empty_blocks == 0, "a run of empty blocks goes beyond its last block")?;
-        self.means = [0; 4];
         self.run.end()
     }
 
-    /// Follows a block of the component at index `place` of the scan. Each coefficient that is not
-    /// zero has a bit in `nonzero`.
+    /// Follows a block. Each of its coefficients that is not zero has a bit in `nonzero`.
     #[inline]
     pub(super) fn follow(
         &mut self,
-        place: usize,
         [dc, ac]: [Option<&HuffmanTable>; 2],
         nonzero: &mut u64,
     ) -> Result<(), PictureFault> {
@@ -150,7 +144,11 @@ impl BlockChecker {
         const FULL_BLOCK: usize = 23;
         let no_table = || PictureFault::damaged("a scan has no Huffman table");
         match (self.band.first, self.band.previous_low_bit) {
-            (0, 0) => self.follow_mean(place, dc.ok_or_else(no_table)?)?,
+            (0, 0) => {
+                let (zeros, length) = self.run.symbol(dc.ok_or_else(no_table)?)?;
+                require(zeros == 0 && length <= 11, "the mean of a block has more than 11 bits")?;
+                self.run.skip(length)?;
+            }
             (0, _) => self.run.skip(1)?,
             _ => {}
         }
@@ -165,21 +163,6 @@ impl BlockChecker {
             require(self.erased_blocks < 2, "zeros stand where its coded pixels should be")?;
         }
         Ok(())
-    }
-
-    /// Follows the code of the first coefficient.
-    #[inline]
-    fn follow_mean(&mut self, place: usize, table: &HuffmanTable) -> Result<(), PictureFault> {
-        /// The largest coefficient of 8-bit pixels, with a margin of a factor of two.
-        const LARGEST: i32 = 2047;
-        let (zeros, length) = self.run.symbol(table)?;
-        require(zeros == 0 && length <= 11, "the mean of a block has more than 11 bits")?;
-        let value = self.run.take(length)?.cast_signed();
-        let is_negative = length > 0 && value < 1 << (length - 1);
-        let mean = &mut self.means[place];
-        *mean += if is_negative { value - (1 << length) + 1 } else { value };
-        let is_possible = (*mean << self.band.low_bit).abs() <= LARGEST;
-        require(is_possible, "the mean of a block is beyond that of 8-bit pixels")
     }
 
     /// Follows the codes of the other coefficients. Those that are not zero since earlier scans

@@ -112,7 +112,7 @@ impl Frame {
                 }
                 block.run = CodedRun::new(bytes, next);
             }
-            for (place, &(component, names)) in parts.iter().enumerate() {
+            for &(component, names) in &parts {
                 let component = &mut self.components[component];
                 let [across, down] = if parts.len() == 1 { [1, 1] } else { component.sampling };
                 let tables = [0, 1].map(|class| tables.classes[class][names[class]].as_ref());
@@ -120,7 +120,7 @@ impl Frame {
                     let x = unit % units[0] * across + inner % across;
                     let y = unit / units[0] * down + inner / across;
                     let nonzero = &mut component.nonzero[y * component.stride + x];
-                    block.follow(place, tables, nonzero)?;
+                    block.follow(tables, nonzero)?;
                 }
             }
         }
