@@ -111,7 +111,7 @@ impl<'a> OutputRecorder<'a> {
             let values = tensor.real_values();
             if let Some(array) = &mut output.array {
                 array.push(values.iter().map(|value| value.to_bits().into()));
-                array.write_pending(false)?;
+                array.write_pending()?;
             }
             if let Some(pictures) = &output.recorded.pictures {
                 let name = format!("{pictures}/{:06}.png", self.frames);

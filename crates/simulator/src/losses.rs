@@ -35,7 +35,7 @@ impl LossTable {
         if self.first.len() < KEPT_LOSSES {
             self.first.push(loss);
         }
-        csv.write_out(false)
+        csv.write_pending()
     }
 
     /// Returns the number of losses so far.
@@ -45,7 +45,7 @@ impl LossTable {
 
     /// Completes the file. Returns the first losses and the number of all.
     pub(crate) fn finish(mut self) -> Result<(Vec<StreamLoss>, u64), SimulatorError> {
-        self.csv.as_mut().map_or(Ok(()), |csv| csv.write_out(true))?;
+        self.csv.as_mut().map_or(Ok(()), CsvFile::write_all)?;
         Ok((self.first, self.count))
     }
 }

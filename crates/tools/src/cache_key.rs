@@ -100,7 +100,7 @@ pub fn sources_sha256(sources: &[Source]) -> String {
     sha256_hex(lines.into_iter().map(|(_, line)| line).collect::<String>())
 }
 
-fn hex(bytes: &[u8]) -> String {
+pub(crate) fn hex(bytes: &[u8]) -> String {
     bytes.iter().fold(String::new(), |mut text, byte| {
         // Writing to a string cannot fail.
         let _ = write!(text, "{byte:02x}");

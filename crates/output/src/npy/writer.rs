@@ -64,13 +64,13 @@ impl NpyWriter {
         self.frames += 1;
     }
 
-    /// Writes the pending bytes if there are many of them or if `all` is set.
+    /// Writes the pending bytes if there are many of them.
     ///
     /// # Errors
     /// Fails if the disk is full or the file cannot be written. Bytes that were not written are
     /// kept.
-    pub fn write_pending(&mut self, all: bool) -> Result<(), StagingError> {
-        self.file.write_pending(all)
+    pub fn write_pending(&mut self) -> Result<(), StagingError> {
+        self.file.write_pending()
     }
 
     /// Writes the number of frames into the header.
@@ -199,7 +199,7 @@ mod tests {
         let mut writer = NpyWriter::create(&path, ElementType::Float32, &[1, 2]).unwrap();
         for frame in [[1.0f32, -2.0], [f32::NAN, 0.5]] {
             writer.push(frame.iter().map(|value| value.to_bits().into()));
-            writer.write_pending(false).unwrap();
+            writer.write_pending().unwrap();
         }
         writer.finish().unwrap();
         let bytes = std::fs::read(&path).unwrap();

@@ -32,14 +32,6 @@ const COLUMN_TYPES: [ColumnType; ClockRow::COLUMNS.len()] = [
     ColumnType::Flag,
 ];
 
-/// The largest number of bytes of a row, as text or in a group of a Parquet file.
-const ROW_BYTES: u64 = 96;
-/// The largest number of rows of a region in a frame, besides those of words that a sink delays: a
-/// decision, its words, a loss.
-const REGION_ROWS: u64 = 3;
-/// The number of frames whose rows may have to be written after the disk is full.
-const PENDING_FRAMES: u64 = 3;
-
 /// The figures of a run in clocks.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct ClockFigures {
@@ -90,18 +82,10 @@ impl ClockFiles {
         let array =
             options.npy.then(|| NpyWriter::create(&array, ElementType::Signed64, &row_shape));
         let array = array.transpose()?;
-        Ok(Self {
-            clip: TimedClip::new(design, options.clock_hz, &options.sink),
-            rows: ClockRows { csv, parquet, array, figures: ClockFigures::default() },
-            latency: LatencyFiles::create(folder, design, options.clock_hz)?,
-            folder: folder.to_owned(),
-        })
-    }
-
-    /// Returns the largest number of bytes that may have to be written after the disk is full.
-    pub(super) fn max_bytes_owed(design: &Design) -> u64 {
-        let rows = PENDING_FRAMES * REGION_ROWS * u64::from(design.regions());
-        rows * ROW_BYTES + LatencyFiles::MAX_BYTES_OWED
+        let rows = ClockRows { csv, parquet, array, figures: ClockFigures::default() };
+        let latency = LatencyFiles::create(folder, design, options.clock_hz)?;
+        let clip = TimedClip::new(design, options.clock_hz, &options.sink);
+        Ok(Self { clip, rows, latency, folder: folder.to_owned() })
     }
 
     /// Adds the rows that are certain after a frame.
@@ -115,25 +99,35 @@ impl ClockFiles {
         Ok(())
     }
 
-    pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        self.rows.write_out(all)?;
-        self.latency.write_out(all)
+    pub(super) fn write_out(&mut self) -> Result<(), SimulatorError> {
+        self.rows.write_out()?;
+        self.latency.write_pending()
     }
 
-    /// Closes the Parquet file, if there is one, and returns its path, so that it can be left out.
-    pub(super) fn give_up_parquet(&mut self) -> Option<PathBuf> {
-        self.rows.parquet.take().map(|parquet| parquet.path())
-    }
-
-    /// Adds the rows that still come after the last frame, draws the charts, and completes all files
-    /// but that of Parquet, which is returned: it can be left out.
-    pub(super) fn finish(self) -> Result<(ClockFigures, Option<ParquetFile>), SimulatorError> {
+    /// Adds the rows that still come after the last frame. Returns the files that remain to be
+    /// completed, and that of Parquet, which can be left out.
+    pub(super) fn end(self) -> (ClockTables, Option<ParquetFile>) {
         let Self { clip, mut rows, mut latency, folder } = self;
         clip.finish(&mut |row| rows.push(row)).for_each(|frame| latency.push(&frame));
-        rows.write_out(true)?;
-        latency.finish(&folder)?;
-        rows.array.map_or(Ok(()), NpyWriter::finish)?;
-        Ok((rows.figures, rows.parquet))
+        let parquet = rows.parquet.take();
+        (ClockTables { rows, latency, folder }, parquet)
+    }
+}
+
+/// The files of a clip that has ended.
+pub(super) struct ClockTables {
+    rows: ClockRows,
+    latency: LatencyFiles,
+    folder: PathBuf,
+}
+
+impl ClockTables {
+    /// Completes the files, and draws the charts.
+    pub(super) fn finish(self) -> Result<ClockFigures, SimulatorError> {
+        self.rows.csv.map_or(Ok(()), |mut csv| csv.write_all())?;
+        self.rows.array.map_or(Ok(()), NpyWriter::finish)?;
+        self.latency.finish(&self.folder)?;
+        Ok(self.rows.figures)
     }
 }
 
@@ -164,10 +158,10 @@ impl ClockRows {
         }
     }
 
-    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        self.csv.as_mut().map_or(Ok(()), |csv| csv.write_out(all))?;
+    fn write_out(&mut self) -> Result<(), SimulatorError> {
+        self.csv.as_mut().map_or(Ok(()), CsvFile::write_pending)?;
         self.parquet.as_mut().map_or(Ok(()), ParquetFile::write_out)?;
-        Ok(self.array.as_mut().map_or(Ok(()), |array| array.write_pending(all))?)
+        Ok(self.array.as_mut().map_or(Ok(()), NpyWriter::write_pending)?)
     }
 }
 

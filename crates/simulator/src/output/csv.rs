@@ -39,7 +39,11 @@ impl CsvFile {
         self.0.append(foveate_output::tables::csv_text([fields]).as_bytes());
     }
 
-    pub(crate) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        Ok(self.0.write_pending(all)?)
+    pub(crate) fn write_pending(&mut self) -> Result<(), SimulatorError> {
+        Ok(self.0.write_pending()?)
+    }
+
+    pub(crate) fn write_all(&mut self) -> Result<(), SimulatorError> {
+        Ok(self.0.write_all()?)
     }
 }

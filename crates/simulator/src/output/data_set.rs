@@ -82,8 +82,8 @@ impl FrameSink for LabelNumberSink {
         Ok(())
     }
 
-    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        Ok(self.file.write_pending(all)?)
+    fn write_out(&mut self) -> Result<(), SimulatorError> {
+        Ok(self.file.write_pending()?)
     }
 
     fn finish(self: Box<Self>) -> Result<(), SimulatorError> {

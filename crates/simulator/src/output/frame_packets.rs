@@ -6,7 +6,7 @@
 use super::PacketContent;
 use super::sink::{FrameSink, SinkFrame};
 use crate::SimulatorError;
-use foveate_camera::{Camera, RegionAction};
+use foveate_camera::RegionAction;
 use foveate_design::Design;
 use foveate_engine::{Engine, FrameOutcome};
 use foveate_packets::{
@@ -231,20 +231,11 @@ impl FrameSink for PacketFileSink {
         Ok(write_packets(self.file.pending_mut(), &self.layout, engine, source, number, time)?)
     }
 
-    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        Ok(self.file.write_pending(all)?)
-    }
-
-    fn max_bytes_owed(&self, camera: &Camera) -> u64 {
-        // These are the ROW, SCORES, FLOW and REGION packets of a frame whose regions all send pixels.
-        // The buffers have room for its FRAME and END.
-        let flow = if self.layout.has_flow() { self.layout.flow_bytes() } else { 0 };
-        let rows = self.layout.row_bytes() + self.layout.scores_bytes() + flow;
-        let regions = u64::from(camera.regions()) * self.layout.region_bytes(false) as u64;
-        regions + u64::from(camera.rows()) * rows as u64
+    fn write_out(&mut self) -> Result<(), SimulatorError> {
+        Ok(self.file.write_pending()?)
     }
 
     fn finish(mut self: Box<Self>) -> Result<(), SimulatorError> {
-        Ok(self.file.write_pending(true)?)
+        Ok(self.file.write_all()?)
     }
 }

@@ -73,8 +73,12 @@ impl FrameTable {
         self.csv.line([format!("{frame},{time_us},{name},{label},{counts}")]);
     }
 
-    pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        self.csv.write_out(all)
+    pub(super) fn write_pending(&mut self) -> Result<(), SimulatorError> {
+        self.csv.write_pending()
+    }
+
+    pub(super) fn finish(mut self) -> Result<(), SimulatorError> {
+        self.csv.write_all()
     }
 }
 
@@ -83,7 +87,7 @@ pub(super) trait RowWriter: Send {
     /// Appends the rows of a frame.
     fn rows(&mut self, table: &EventTable, frame: &EventFrame<'_>);
     /// Writes the buffered data, as [`super::sink::FrameSink::write_out`] does.
-    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError>;
+    fn write_out(&mut self) -> Result<(), SimulatorError>;
     /// Returns the path that can be given up, as [`super::sink::FrameSink::expendable_path`] does.
     fn expendable(&self) -> Option<PathBuf> {
         None
@@ -96,12 +100,12 @@ impl RowWriter for CsvFile {
         table.csv(frame, self.buffer());
     }
 
-    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        CsvFile::write_out(self, all)
+    fn write_out(&mut self) -> Result<(), SimulatorError> {
+        self.write_pending()
     }
 
     fn finish(mut self: Box<Self>) -> Result<(), SimulatorError> {
-        CsvFile::write_out(&mut self, true)
+        self.write_all()
     }
 }
 
@@ -134,8 +138,8 @@ impl<const HEADER: usize> HeadedFile<HEADER> {
         }
     }
 
-    pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        Ok(self.file.write_pending(all)?)
+    pub(super) fn write_out(&mut self) -> Result<(), SimulatorError> {
+        Ok(self.file.write_pending()?)
     }
 
     /// Completes the file with its header.
@@ -172,7 +176,7 @@ impl RowWriter for ParquetTable {
         table.rows(frame, |values| self.0.push(values.map(parquet_value)));
     }
 
-    fn write_out(&mut self, _all: bool) -> Result<(), SimulatorError> {
+    fn write_out(&mut self) -> Result<(), SimulatorError> {
         self.0.write_out()
     }
 

@@ -10,10 +10,6 @@ use foveate_timed::FrameTraffic;
 use std::path::Path;
 
 const COLUMNS: &str = "frame,clock,decision_clocks,word_clocks,waiting_regions,lost_regions";
-/// The largest number of bytes of a row.
-const ROW_BYTES: u64 = 6 * 21;
-/// The largest number of frames whose rows come with that of another.
-const PENDING_FRAMES: u64 = 3;
 
 /// The open table, and the charts so far.
 pub(super) struct LatencyFiles {
@@ -22,10 +18,6 @@ pub(super) struct LatencyFiles {
 }
 
 impl LatencyFiles {
-    /// The largest number of bytes that may have to be written after the disk is full, with charts
-    /// of less than 100 kB each.
-    pub(super) const MAX_BYTES_OWED: u64 = PENDING_FRAMES * ROW_BYTES + 4 * 100_000;
-
     pub(super) fn create(
         folder: &Path,
         design: &Design,
@@ -50,13 +42,13 @@ impl LatencyFiles {
         self.charts.push(traffic.frame, [decision, word], traffic.waiting_regions);
     }
 
-    pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        self.csv.write_out(all)
+    pub(super) fn write_pending(&mut self) -> Result<(), SimulatorError> {
+        self.csv.write_pending()
     }
 
     /// Completes the table, and draws the charts.
     pub(super) fn finish(mut self, folder: &Path) -> Result<(), SimulatorError> {
-        self.csv.write_out(true)?;
+        self.csv.write_all()?;
         self.charts.write(folder)
     }
 }

@@ -63,8 +63,8 @@ impl NpzArchive {
         self.position += packed;
     }
 
-    pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        Ok(self.file.write_pending(all)?)
+    pub(super) fn write_out(&mut self) -> Result<(), SimulatorError> {
+        Ok(self.file.write_pending()?)
     }
 
     /// Closes the open array, which has `count` elements, and begins another one.
@@ -89,7 +89,7 @@ impl NpzArchive {
         let directory: Vec<u8> = self.done.iter().flat_map(ArchiveEntry::directory_entry).collect();
         self.file.append(&directory);
         self.file.append(&end_of_directory(self.position, length(&directory), length(&self.done)));
-        Ok(self.file.write_pending(true)?)
+        Ok(self.file.write_all()?)
     }
 
     /// Reserves space for the headers of the open entry.
@@ -302,13 +302,13 @@ impl FrameSink for ArraySink {
         Ok(())
     }
 
-    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
+    fn write_out(&mut self) -> Result<(), SimulatorError> {
         let flags = [&mut self.srs, &mut self.trs, &mut self.active];
         let others = self.summary.iter_mut().chain(&mut self.temporal_count).chain(&mut self.flow);
         for array in flags.into_iter().chain(others) {
-            array.write_pending(all)?;
+            array.write_pending()?;
         }
-        Ok(self.scores.iter_mut().try_for_each(|scores| scores.write_pending(all))?)
+        Ok(self.scores.iter_mut().try_for_each(NpyWriter::write_pending)?)
     }
 
     fn finish(self: Box<Self>) -> Result<(), SimulatorError> {

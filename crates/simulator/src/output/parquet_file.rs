@@ -39,7 +39,6 @@ impl ParquetFile {
 
     /// Writes the rows of a group if there are that many.
     pub(super) fn write_out(&mut self) -> Result<(), SimulatorError> {
-        self.check()?;
         if self.writer.pending_rows() < GROUP_ROWS {
             return Ok(());
         }
@@ -54,15 +53,10 @@ impl ParquetFile {
 
     /// Completes the file.
     pub(super) fn finish(self) -> Result<(), SimulatorError> {
-        self.check()?;
-        self.writer.finish().map(drop).map_err(cannot_write(&self.path))
-    }
-
-    /// Fails if a group could not be written.
-    fn check(&self) -> Result<(), SimulatorError> {
-        match self.is_broken {
-            true => Err(cannot_write(&self.path)(io::ErrorKind::StorageFull.into())),
-            false => Ok(()),
-        }
+        let finished = match self.is_broken {
+            true => Err(io::ErrorKind::StorageFull.into()),
+            false => self.writer.finish().map(drop),
+        };
+        finished.map_err(cannot_write(&self.path))
     }
 }

@@ -70,9 +70,9 @@ impl FrameSink for PictureSeriesSink {
         Ok(())
     }
 
-    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
+    fn write_out(&mut self) -> Result<(), SimulatorError> {
         match &mut self.series {
-            SeriesFiles::Folder(series) => series.writers.check_written(all),
+            SeriesFiles::Folder(series) => series.writers.check_written(),
             SeriesFiles::Video(video) => video.check_encoder(),
         }
     }
@@ -96,10 +96,6 @@ impl FrameSink for PictureSeriesSink {
             SeriesFiles::Folder(series) => Some(series.folder().to_owned()),
             SeriesFiles::Video(video) => Some(video.path().to_owned()),
         }
-    }
-
-    fn is_written_by_other_program(&self) -> bool {
-        matches!(self.series, SeriesFiles::Video(_))
     }
 
     fn finish(self: Box<Self>) -> Result<(), SimulatorError> {

@@ -89,21 +89,22 @@ impl PixelEventFiles {
         Ok(written?)
     }
 
-    pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        self.csv.as_mut().map_or(Ok(()), |csv| csv.write_out(all))?;
-        self.streams.iter_mut().try_for_each(|stream| stream.file.write_pending(all))?;
+    pub(super) fn write_out(&mut self) -> Result<(), SimulatorError> {
+        self.csv.as_mut().map_or(Ok(()), CsvFile::write_pending)?;
+        self.streams.iter_mut().try_for_each(|stream| stream.file.write_pending())?;
         self.npz.as_mut().map_or(Ok(()), |npz| {
-            npz.starts.write_pending(all)?;
-            npz.npz.write_out(all)
+            npz.starts.write_pending()?;
+            npz.npz.write_out()
         })
     }
 
     /// Completes the files. Returns the number of events in them.
-    pub(super) fn finish(mut self) -> Result<u64, SimulatorError> {
-        for EventStream { encoder, file } in &mut self.streams {
+    pub(super) fn finish(self) -> Result<u64, SimulatorError> {
+        self.csv.map_or(Ok(()), |mut csv| csv.write_all())?;
+        for EventStream { mut encoder, mut file } in self.streams {
             encoder.finish(file.pending_mut());
+            file.write_all()?;
         }
-        self.write_out(true)?;
         if let Some(npz) = self.npz {
             npz.finish(self.events)?;
         }
@@ -163,7 +164,7 @@ impl EventArchive {
     fn finish(mut self, events: u64) -> Result<(), SimulatorError> {
         let failed = cannot_write(&self.starts_path);
         self.starts.append(&events.to_le_bytes());
-        self.starts.write_pending(true)?;
+        self.starts.write_all()?;
         drop(self.starts);
         self.npz.next_array(events, "frame_start", "'<i8'")?;
         let mut starts = File::open(&self.starts_path).map_err(&failed)?;
@@ -173,7 +174,7 @@ impl EventArchive {
                 0 => break,
                 length => self.npz.write(&chunk[..length]),
             }
-            self.npz.write_out(false)?;
+            self.npz.write_out()?;
         }
         self.npz.finish(self.frames + 1)?;
         fs::remove_file(&self.starts_path).map_err(&failed)
@@ -215,8 +216,8 @@ impl FrameSink for EventFileSink {
         Ok(())
     }
 
-    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        self.writer.write_out(all)
+    fn write_out(&mut self) -> Result<(), SimulatorError> {
+        self.writer.write_out()
     }
 
     fn expendable_path(&self) -> Option<PathBuf> {

@@ -9,7 +9,6 @@ use super::canvas::PictureCanvas;
 use super::sink::SinkFrame;
 use crate::SimulatorError;
 use foveate_pixels::{FramePixels, convert_depth, display_depth};
-use foveate_tools::is_full;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder, ImageError};
 use std::path::{Path, PathBuf};
@@ -95,21 +94,16 @@ impl PngWriters {
         self.unwritten.extend(refused);
     }
 
-    /// Checks that all finished pictures were written. With `all`, waits for all pictures first.
-    pub(super) fn check_written(&mut self, all: bool) -> Result<(), SimulatorError> {
-        if all {
-            self.join_threads();
-        }
+    /// Checks that all finished pictures were written.
+    pub(super) fn check_written(&mut self) -> Result<(), SimulatorError> {
         for (job, result) in self.done.try_iter() {
             match result {
                 Ok(()) => self.spare_buffer = job.picture.bytes,
-                Err(error) if is_full(&error) => {
+                Err(error) => {
+                    let failed = cannot_write(&job.path)(error);
                     self.unwritten.push(job);
-                    return Err(cannot_write(&self.unwritten[self.unwritten.len() - 1].path)(
-                        error,
-                    ));
+                    return Err(failed);
                 }
-                Err(error) => return Err(cannot_write(&job.path)(error)),
             }
         }
         Ok(())
@@ -117,14 +111,12 @@ impl PngWriters {
 
     /// Waits for all pictures, and writes those again that found no space.
     pub(super) fn finish(mut self) -> Result<(), SimulatorError> {
-        while let Err(error) = self.check_written(true) {
-            if !error.is_full() {
-                return Err(error);
-            }
-        }
+        self.join_threads();
+        let failed = self.done.try_iter().filter(|(_, result)| result.is_err()).map(|(job, _)| job);
+        self.unwritten.extend(failed);
         let mut bytes = Vec::new();
-        for PngJob { path, picture } in std::mem::take(&mut self.unwritten) {
-            write(&path, &picture, &mut bytes).map_err(cannot_write(&path))?;
+        for PngJob { path, picture } in &self.unwritten {
+            write(path, picture, &mut bytes).map_err(cannot_write(path))?;
         }
         Ok(())
     }

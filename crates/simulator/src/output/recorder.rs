@@ -2,7 +2,9 @@
 //! The recorder, which takes the outcome of every frame and writes it at once, so that memory is
 //! bounded.
 
-use std::path::{Path, PathBuf};
+use std::cmp::Reverse;
+use std::fs;
+use std::path::Path;
 
 use foveate_camera::Camera;
 use foveate_design::Design;
@@ -11,7 +13,7 @@ use foveate_pixels::FramePixels;
 use foveate_tools::SpaceReserve;
 use rayon::prelude::*;
 
-use super::clock_files::ClockFiles;
+use super::clock_files::{ClockFiles, ClockTables};
 use super::data_set::{self, DataSetPaths};
 use super::frame_packets::PacketFileSink;
 use super::frame_table::{FrameRow, FrameTable};
@@ -33,9 +35,12 @@ pub(crate) const INTERRUPTED: &str = "interrupted";
 pub(crate) const DISK_FULL: &str = "disk full";
 /// The number of bytes of an output that may wait in memory, besides those of its last frame.
 const BUFFER_BYTES: u64 = 1 << 17;
-/// The space in bytes that is reserved for the summary, and for outputs that buffer much, such as a
-/// group of a Parquet file.
+/// The space in bytes that is reserved for the arrays, the charts and the summary, and once more for
+/// a group of a Parquet file.
 const MIN_RESERVE_BYTES: u64 = 1 << 20;
+/// The bytes of a pixel and of a region that may have to be written of the last frames.
+const PIXEL_BYTES: u64 = 8;
+const REGION_BYTES: u64 = 1 << 10;
 
 /// The content of frames that not every run has.
 #[derive(Clone, Copy, Debug)]
@@ -58,10 +63,10 @@ pub(crate) struct RunRecorder {
     sinks: Vec<Box<dyn FrameSink>>,
     data_set: Option<DataSetPaths>,
     totals: RunTotals,
-    /// The disk space with which every file except a video can be completed on a full disk.
-    reserve: Option<SpaceReserve>,
-    /// The disk space with which ffmpeg can complete a video.
-    video_reserve: Option<SpaceReserve>,
+    /// The disk space with which the files can be completed on a full disk.
+    reserve: SpaceReserve,
+    /// The part of it for the files that are never left out.
+    needed_bytes: u64,
 }
 
 impl RunRecorder {
@@ -113,31 +118,30 @@ impl RunRecorder {
         if options.data_set {
             sinks.append(&mut data_set::data_set_sinks(folder, form)?);
         }
-        let owed_bytes: u64 =
-            sinks.iter().map(|sink| BUFFER_BYTES + sink.max_bytes_owed(design)).sum();
         let clocks = &options.clocks;
         let clocks = clocks.is_wanted().then(|| ClockFiles::create(folder, design, clocks));
-        let clocks = clocks.transpose()?;
-        let owed_by_clocks = clocks.as_ref().map_or(0, |_| ClockFiles::max_bytes_owed(design));
-        let has_video = sinks.iter().any(|sink| sink.is_written_by_other_program());
-        let video_reserve =
-            has_video.then(|| SpaceReserve::new(folder, ".spare", MIN_RESERVE_BYTES));
         let pixel_events = options.pixel_events;
         let pixel_events =
             pixel_events.is_wanted().then(|| PixelEventFiles::create(folder, design, pixel_events));
+        let (clocks, pixel_events) = (clocks.transpose()?, pixel_events.transpose()?);
+        let bytes_owed = |is_expendable: bool| -> u64 {
+            let sinks = sinks.iter();
+            let sinks = sinks.filter(|sink| sink.expendable_path().is_some() == is_expendable);
+            let owed: u64 = sinks.map(|sink| BUFFER_BYTES + sink.max_bytes_owed(design)).sum();
+            MIN_RESERVE_BYTES + owed
+        };
+        let pixels = u64::from(design.width()) * u64::from(design.height());
+        let frame_bytes = PIXEL_BYTES * pixels + REGION_BYTES * u64::from(design.regions());
+        let needed_bytes = frame_bytes + bytes_owed(false);
         Ok(Self {
             table,
             data_set: options.data_set.then(|| DataSetPaths::of(form)),
-            pixel_events: pixel_events.transpose()?,
+            pixel_events,
             clocks,
+            reserve: SpaceReserve::new(folder, needed_bytes + bytes_owed(true)),
+            needed_bytes,
             sinks,
             totals: RunTotals::default(),
-            reserve: Some(SpaceReserve::new(
-                folder,
-                ".reserve",
-                MIN_RESERVE_BYTES + owed_bytes + owed_by_clocks,
-            )),
-            video_reserve,
             design: design.clone(),
         })
     }
@@ -175,7 +179,7 @@ impl RunRecorder {
     }
 
     fn push_to_sinks(&mut self, sink_frame: &SinkFrame<'_>) -> Result<(), SimulatorError> {
-        self.write_out(false)?;
+        self.write_out()?;
         self.add_to_table(sink_frame);
         let Self { pixel_events: pixels, clocks, sinks, .. } = self;
         let ((pixels, clocks), sinks) = rayon::join(
@@ -190,88 +194,56 @@ impl RunRecorder {
         pixels.and(clocks).and(sinks)
     }
 
-    /// Writes the buffered data if there is much of it, or in any case with `all`. On a full disk
-    /// the data stays in memory, and every file has the same frames.
-    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        self.table.write_out(all)?;
-        self.pixel_events.as_mut().map_or(Ok(()), |pixels| pixels.write_out(all))?;
-        self.clocks.as_mut().map_or(Ok(()), |clocks| clocks.write_out(all))?;
-        self.sinks.iter_mut().try_for_each(|sink| sink.write_out(all))
+    /// Writes the buffered data if there is much of it. On a full disk the data stays in memory, and
+    /// every file has the same frames.
+    fn write_out(&mut self) -> Result<(), SimulatorError> {
+        self.table.write_pending()?;
+        self.pixel_events.as_mut().map_or(Ok(()), PixelEventFiles::write_out)?;
+        self.clocks.as_mut().map_or(Ok(()), ClockFiles::write_out)?;
+        self.sinks.iter_mut().try_for_each(|sink| sink.write_out())
     }
 
     /// Completes every file and adds the summary. `problem` is the reason why the run ended early,
-    /// if it did. On a full disk the reserved space is released, and the expendable outputs are
-    /// left out as far as necessary: pictures, Parquet tables, videos. A video is also left out if
-    /// its ffmpeg was interrupted.
+    /// if it did. An expendable output is left out if the disk has no space for it: pictures, a
+    /// Parquet table, a video. A video is also left out if its ffmpeg was interrupted.
     pub(crate) fn finish(
-        mut self,
+        self,
         folder: &Path,
         (inputs, luma): (&[String], Option<LumaRange>),
         mut problem: Option<String>,
     ) -> Result<RunSummary, SimulatorError> {
         let interrupted = problem.as_deref() == Some(INTERRUPTED);
-        let may_leave_out = |error: &SimulatorError| {
-            let video = matches!(error, SimulatorError::VideoOutput { .. });
-            error.is_full() || (interrupted && video)
+        let mut complete = |path: &Path, finished: Result<(), SimulatorError>| match finished {
+            Err(SimulatorError::VideoOutput { .. }) if interrupted => leave_out(path, &mut problem),
+            Err(error) if error.is_full() => leave_out(path, &mut problem),
+            finished => finished,
         };
-        if let Err(error) = self.write_out(true)
-            && !may_leave_out(&error)
-        {
-            return Err(error);
+        let (clocks, clock_table) = self.clocks.map(ClockFiles::end).unzip();
+        let (mut expendable, needed): (Vec<_>, Vec<_>) =
+            self.sinks.into_iter().partition(|sink| sink.expendable_path().is_some());
+        // Pictures are first, because the reserve has room for them.
+        expendable.sort_by_key(|sink| Reverse(sink.max_bytes_owed(&self.design)));
+        self.reserve.shrink(self.needed_bytes);
+        for sink in expendable {
+            let path = sink.expendable_path().unwrap_or_default();
+            complete(&path, sink.finish())?;
         }
-        // Files that another program writes are completed first. That program would otherwise use
-        // the space that is released for the other files.
-        drop(self.video_reserve.take());
-        let (videos, sinks): (Vec<_>, Vec<_>) = std::mem::take(&mut self.sinks)
-            .into_iter()
-            .partition(|sink| sink.is_written_by_other_program());
-        finish_expendable(videos, &may_leave_out, &mut problem)?;
-        drop(self.reserve.take());
-        let (expendable, needed) =
-            sinks.into_iter().partition::<Vec<_>, _>(|sink| sink.expendable_path().is_some());
-        self.sinks = needed;
-        let expendable = self.make_room(expendable, &mut problem)?;
-        for sink in std::mem::take(&mut self.sinks) {
-            sink.finish()?;
+        if let Some(table) = clock_table.flatten() {
+            complete(&table.path(), table.finish())?;
         }
-        let pixel_events = self.pixel_events.take().map(PixelEventFiles::finish).transpose()?;
-        let clocks = self.clocks.take().map(ClockFiles::finish).transpose()?;
-        let (clocks, clock_table) = clocks.map_or((None, None), |(own, table)| (Some(own), table));
-        let summary = |problem| {
-            let mut summary = self.totals.summary(&self.design, inputs, problem, pixel_events);
-            summary.data_set.clone_from(&self.data_set);
-            summary.clocks = clocks;
-            summary.luma = luma.map(LumaRange::name);
-            summary.write(&folder.join("summary.json")).map(|()| summary)
+        drop(self.reserve);
+        self.table.finish()?;
+        needed.into_iter().try_for_each(|sink| sink.finish())?;
+        let pixel_events = self.pixel_events.map(PixelEventFiles::finish).transpose()?;
+        let clocks = clocks.map(ClockTables::finish).transpose()?;
+        let summary = RunSummary {
+            luma: luma.map(LumaRange::name),
+            clocks,
+            data_set: self.data_set,
+            ..self.totals.summary(&self.design, inputs, problem, pixel_events)
         };
-        // The summary is written while there is space, before the last outputs are completed.
-        let written = summary(problem.clone())?;
-        finish_expendable(expendable, &may_leave_out, &mut problem)?;
-        if let Some(table) = clock_table {
-            check_finished(Some(table.path()), table.finish(), &may_leave_out, &mut problem)?;
-        }
-        if written.problem == problem { Ok(written) } else { summary(problem) }
-    }
-
-    /// Writes all needed outputs. Gives up one expendable output after the other until there is
-    /// enough space. Returns the expendable outputs that remain.
-    fn make_room(
-        &mut self,
-        mut expendable: Vec<Box<dyn FrameSink>>,
-        problem: &mut Option<String>,
-    ) -> Result<Vec<Box<dyn FrameSink>>, SimulatorError> {
-        loop {
-            let Err(error) = self.write_out(true) else { return Ok(expendable) };
-            if !error.is_full() {
-                return Err(error);
-            }
-            let clock_table = self.clocks.as_mut().and_then(ClockFiles::give_up_parquet);
-            // The file is closed when its sink is dropped.
-            let path =
-                clock_table.or_else(|| expendable.pop().and_then(|own| own.expendable_path()));
-            let Some(path) = path else { return Err(error) };
-            leave_out(&path, problem);
-        }
+        summary.write(&folder.join("summary.json"))?;
+        Ok(summary)
     }
 
     /// Returns the number of frames so far.
@@ -302,46 +274,15 @@ impl RunRecorder {
     }
 }
 
-/// Completes outputs. An expendable output that fails is given up.
-fn finish_expendable(
-    sinks: Vec<Box<dyn FrameSink>>,
-    may_leave_out: &dyn Fn(&SimulatorError) -> bool,
-    problem: &mut Option<String>,
-) -> Result<(), SimulatorError> {
-    for sink in sinks {
-        check_finished(sink.expendable_path(), sink.finish(), may_leave_out, problem)?;
-    }
-    Ok(())
-}
-
-/// Checks that an output is complete. An expendable output, which has a path, is given up if it
-/// failed.
-fn check_finished(
-    expendable: Option<PathBuf>,
-    finished: Result<(), SimulatorError>,
-    may_leave_out: &dyn Fn(&SimulatorError) -> bool,
-    problem: &mut Option<String>,
-) -> Result<(), SimulatorError> {
-    match (expendable, finished) {
-        (Some(path), Err(error)) if may_leave_out(&error) => {
-            leave_out(&path, problem);
-            Ok(())
-        }
-        (_, finished) => finished,
-    }
-}
-
 /// Removes a file or a folder of pictures that cannot be completed, and names it in the problem of
 /// the run.
-fn leave_out(path: &Path, problem: &mut Option<String>) {
+fn leave_out(path: &Path, problem: &mut Option<String>) -> Result<(), SimulatorError> {
     // The path lies in the folder of this run. If it cannot be removed, the summary still names it.
-    let _ = std::fs::remove_file(path).or_else(|_| std::fs::remove_dir_all(path));
+    let _ = fs::remove_file(path).or_else(|_| fs::remove_dir_all(path));
     let name = path.file_name().expect("an output has a name").display();
-    let left_out = format!("{name} is left out");
-    *problem = Some(match problem.take() {
-        Some(problem) => format!("{problem}; {left_out}"),
-        None => format!("{DISK_FULL}; {left_out}"),
-    });
+    let earlier = problem.as_deref().unwrap_or(DISK_FULL);
+    *problem = Some(format!("{earlier}; {name} is left out"));
+    Ok(())
 }
 
 fn count_set(bits: &[bool]) -> u64 {

@@ -51,25 +51,20 @@ pub(super) trait FrameSink: Send {
     /// Takes the next frame.
     fn push(&mut self, sink_frame: &SinkFrame<'_>) -> Result<(), SimulatorError>;
 
-    /// Writes the buffered data if there is much of it, or in any case with `all`.
-    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError>;
+    /// Writes the buffered data if there is much of it. On a full disk they stay in memory.
+    fn write_out(&mut self) -> Result<(), SimulatorError>;
 
-    /// Returns the largest number of bytes, besides some buffers, that may have to be written after
-    /// the disk is full.
-    fn max_bytes_owed(&self, _design: &Camera) -> u64 {
+    /// Returns the largest number of bytes of pictures that may have to be written after the disk is
+    /// full.
+    fn max_bytes_owed(&self, _camera: &Camera) -> u64 {
         0
     }
 
-    /// Returns the file or folder that is given up if there is no space to complete everything.
+    /// Returns the file or folder that is left out if there is no space to complete it.
     fn expendable_path(&self) -> Option<PathBuf> {
         None
     }
 
-    /// Returns true if another program writes the output.
-    fn is_written_by_other_program(&self) -> bool {
-        false
-    }
-
-    /// Completes the output. A sink that is dropped instead leaves an incomplete output.
+    /// Writes all buffered data and completes the output.
     fn finish(self: Box<Self>) -> Result<(), SimulatorError>;
 }

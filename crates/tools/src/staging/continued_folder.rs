@@ -6,7 +6,8 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::staging::file_list::{FileList, LIST_NAME, first_names, hash, hash_of_file};
+use crate::cache_key::sha256_hex;
+use crate::staging::file_list::{FileList, FolderFile, LIST_NAME, files_below, hash_of_file};
 use crate::staging::{StagingError, write_file};
 
 /// A folder with the list of its files.
@@ -31,7 +32,7 @@ impl ContinuedFolder {
 
     /// Lists a file with these contents, as if the command had written it.
     pub fn add_expected(&mut self, name: &str, contents: &[u8]) {
-        self.list.add(name.as_bytes().to_owned(), hash(contents));
+        self.list.add(name, sha256_hex(contents));
     }
 
     /// Refuses to continue if one of these files was not written by the command. A file may be
@@ -43,25 +44,12 @@ impl ContinuedFolder {
         &self,
         names: impl IntoIterator<Item = &'a str>,
     ) -> Result<(), StagingError> {
-        let difference = |name: &str| {
-            let path = self.folder.join(name);
-            fs::symlink_metadata(&path).ok()?;
-            self.list.difference(name.as_bytes(), &path)
-        };
-        let foreign: Vec<String> = names.into_iter().filter_map(difference).collect();
-        if foreign.is_empty() {
-            return Ok(());
-        }
-        Err(StagingError::UnlistedFiles { path: self.folder.clone(), names: first_names(&foreign) })
-    }
-
-    /// Returns the names of the written files that are still there and unchanged.
-    #[must_use]
-    pub fn unchanged_files(&self) -> Vec<String> {
-        let is_unchanged =
-            |name: &&str| self.list.has_unchanged(name.as_bytes(), &self.folder.join(name));
-        let names = self.list.names().filter_map(|name| std::str::from_utf8(name).ok());
-        names.filter(|name| stays_in_folder(name)).filter(is_unchanged).map(str::to_owned).collect()
+        let file = |name: &str| FolderFile { name: name.to_owned(), path: self.folder.join(name) };
+        let files = names.into_iter().map(file);
+        let files: Vec<_> = files.filter(|file| fs::symlink_metadata(&file.path).is_ok()).collect();
+        self.list.differences(&files).map_or(Ok(()), |names| {
+            Err(StagingError::UnlistedFiles { path: self.folder.clone(), names })
+        })
     }
 
     /// Writes all of these files in order, and removes the files that were written before and are
@@ -72,13 +60,14 @@ impl ContinuedFolder {
     /// a file cannot be written.
     pub fn write(&mut self, files: &[(String, Vec<u8>)]) -> Result<(), StagingError> {
         self.check_files(files.iter().map(|(name, _)| name.as_str()))?;
-        let surplus = self.unchanged_files();
-        let surplus = surplus.iter().filter(|name| files.iter().all(|(other, _)| other != *name));
+        let mut surplus =
+            files_below(&self.folder).map_err(StagingError::unwritable(&self.folder))?;
+        surplus.retain(|file| {
+            files.iter().all(|(name, _)| *name != file.name) && self.list.has_unchanged(file)
+        });
         // The list has both the old and the new contents, in case the process ends before all files
         // are written.
-        for (name, contents) in files {
-            self.list.add(name.as_bytes().to_owned(), hash(contents));
-        }
+        files.iter().for_each(|(name, contents)| self.add_expected(name, contents));
         self.write_list()?;
         for (name, contents) in files {
             let path = self.folder.join(name);
@@ -87,14 +76,11 @@ impl ContinuedFolder {
             }
             write_file(&path, contents)?;
         }
-        for name in surplus {
-            let path = self.folder.join(name);
+        for FolderFile { path, .. } in surplus {
             fs::remove_file(&path).map_err(StagingError::unwritable(&path))?;
         }
         self.list = FileList::default();
-        for (name, contents) in files {
-            self.list.add(name.as_bytes().to_owned(), hash(contents));
-        }
+        files.iter().for_each(|(name, contents)| self.add_expected(name, contents));
         self.write_list()
     }
 
@@ -110,21 +96,15 @@ impl ContinuedFolder {
             let path = self.folder.join(&name);
             if fs::symlink_metadata(&path).is_ok_and(|about| about.is_file()) {
                 let sum = hash_of_file(&path).map_err(StagingError::unwritable(&path))?;
-                self.list.add(name.into_bytes(), sum);
+                self.list.add(&name, sum);
             }
         }
         self.write_list()
     }
 
     fn write_list(&self) -> Result<(), StagingError> {
-        write_file(&self.folder.join(LIST_NAME), &self.list.text())
+        write_file(&self.folder.join(LIST_NAME), self.list.text().as_bytes())
     }
-}
-
-/// Returns whether a name in a list is a path below the folder of the list.
-fn stays_in_folder(name: &str) -> bool {
-    use std::path::Component;
-    Path::new(name).components().all(|part| matches!(part, Component::Normal(_)))
 }
 
 #[cfg(test)]
@@ -165,7 +145,7 @@ mod tests {
         let folder = dir.path().join("out");
         fs::create_dir(&folder).unwrap();
         fs::write(dir.path().join("thesis"), "thesis").unwrap();
-        let sum = String::from_utf8(hash(b"thesis")).unwrap();
+        let sum = sha256_hex("thesis");
         let absolute = dir.path().join("thesis").display().to_string();
         let text = format!("{sum}  ../thesis\n{sum}  {absolute}\n");
         fs::write(folder.join(LIST_NAME), text).unwrap();

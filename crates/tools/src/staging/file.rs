@@ -1,31 +1,28 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Writes one file completely, or leaves it unchanged.
 
-use std::fs::{self, File, OpenOptions};
-use std::io::{self, Seek as _, Write};
-use std::path::{Path, PathBuf};
-
-use tempfile::NamedTempFile;
+use std::fs::{self, OpenOptions};
+use std::io::{self, Seek as _, Write as _};
+use std::path::Path;
 
 use crate::staging::StagingError;
-use crate::staging::leftovers::{TEMPORARY_PREFIX, remove_leftovers_once};
-use crate::staging::locked_folder::{RANDOM_LETTERS, is_same_file, without_path};
-
-/// The largest number of links that are followed.
-const MAX_LINKS: usize = 40;
+use crate::staging::scratch_folder::create_locked_file;
 
 /// Writes `contents` into a temporary file next to `path` and renames it into place. An existing
 /// file is replaced and keeps its mode, owner and hard links. A symbolic link keeps its target.
-/// Special files such as `/dev/stdout` are written directly.
+/// Special files such as `/dev/stdout`, and links to files that do not exist, are written directly.
 ///
 /// # Errors
 /// Fails if the folder does not exist or cannot be written.
 pub fn write_file(path: &Path, contents: &[u8]) -> Result<(), StagingError> {
-    let target = resolve_links(path);
+    let target = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let written = match fs::metadata(&target) {
-        Ok(previous) if previous.is_file() => replace(&target, contents, &previous),
-        Ok(_) => fs::write(&target, contents),
-        Err(_) => create(&target, contents),
+        Ok(previous) if previous.is_file() => match replace(&target, contents, Some(&previous)) {
+            Err(error) if is_refused(&error) => overwrite(&target, contents),
+            written => written,
+        },
+        Err(_) if !target.is_symlink() => replace(&target, contents, None),
+        _ => fs::write(&target, contents),
     };
     written.map_err(StagingError::unwritable(path))
 }
@@ -47,75 +44,40 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Returns the target of a path after following links, even if the target does not exist yet.
-fn resolve_links(path: &Path) -> PathBuf {
-    let mut target = path.to_owned();
-    for _ in 0..MAX_LINKS {
-        if let Ok(resolved) = target.canonicalize() {
-            return resolved;
+/// Writes a new file. If it cannot replace the previous one without a difference to other users,
+/// that is overwritten.
+fn replace(target: &Path, contents: &[u8], previous: Option<&fs::Metadata>) -> io::Result<()> {
+    // No other user can open the file before it has the mode of the previous one.
+    let mode = if previous.is_some() { 0o600 } else { 0o666 };
+    let mut file = create_locked_file(folder_of(target), mode)?;
+    if let Some(previous) = previous {
+        if !can_replace(&file.as_file().metadata()?, previous) {
+            return overwrite(target, contents);
         }
-        let Ok(next) = fs::read_link(&target) else { break };
-        target = folder_of(&target).join(next);
+        file.as_file().set_permissions(previous.permissions())?;
     }
-    target
+    file.as_file_mut().write_all(contents)?;
+    file.persist(target).map(drop).map_err(|refused| refused.error)
 }
 
-/// Writes a new file, with the same permissions as files of other programs.
-fn create(target: &Path, contents: &[u8]) -> io::Result<()> {
-    const MODE: u32 = 0o666;
-    write_temporary_file(target, contents, MODE)?
-        .persist(target)
-        .map(drop)
-        .map_err(|error| without_path(&error.error))
+/// Returns whether a new file can replace another: it cannot if the other has further hard links,
+/// or another owner.
+#[cfg(unix)]
+fn can_replace(new: &fs::Metadata, previous: &fs::Metadata) -> bool {
+    use std::os::unix::fs::MetadataExt as _;
+    let owner = |about: &fs::Metadata| (about.uid(), about.gid());
+    owner(new) == owner(previous) && previous.nlink() == 1
 }
 
-/// Replaces an existing file and keeps its owner, mode and links. If that requires the same inode,
-/// the file is overwritten in place.
-fn replace(target: &Path, contents: &[u8], previous: &fs::Metadata) -> io::Result<()> {
-    const MODE: u32 = 0o600;
-    let written = write_temporary_file(target, contents, MODE).and_then(|temporary| {
-        let is_kept = keep_owner_and_mode(temporary.as_file(), previous)?;
-        Ok(is_kept.then_some(temporary))
-    });
-    match written {
-        Ok(Some(temporary)) => match temporary.persist(target) {
-            Ok(_) => Ok(()),
-            Err(error) if is_refused(&error.error) => overwrite(target, contents),
-            Err(error) => Err(without_path(&error.error)),
-        },
-        Ok(None) => overwrite(target, contents),
-        Err(error) if is_refused(&error) => overwrite(target, contents),
-        Err(error) => Err(error),
-    }
+#[cfg(not(unix))]
+fn can_replace(_: &fs::Metadata, _: &fs::Metadata) -> bool {
+    true
 }
 
 /// Returns whether an error says that a folder cannot be written. Its files may be writable all the
 /// same.
 fn is_refused(error: &io::Error) -> bool {
     matches!(error.kind(), io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem)
-}
-
-/// Writes a temporary file next to `target`. This process locks the file, so that no other process
-/// removes it as a leftover.
-fn write_temporary_file(target: &Path, contents: &[u8], mode: u32) -> io::Result<NamedTempFile> {
-    let folder = folder_of(target);
-    remove_leftovers_once(folder);
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(TEMPORARY_PREFIX).rand_bytes(RANDOM_LETTERS);
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(mode));
-    #[cfg(not(unix))]
-    let _ = mode;
-    // Another process may remove the file before it is locked. Then a new one is made.
-    loop {
-        let mut temporary = builder.tempfile_in(folder).map_err(|error| without_path(&error))?;
-        // If files cannot be locked, no other process removes this file either.
-        let _ = temporary.as_file().lock();
-        if is_same_file(temporary.as_file(), temporary.path()) {
-            temporary.as_file_mut().write_all(contents)?;
-            return Ok(temporary);
-        }
-    }
 }
 
 /// Overwrites a file in place. If the disk is full, the previous contents are restored.
@@ -133,30 +95,10 @@ fn overwrite(target: &Path, contents: &[u8]) -> io::Result<()> {
     })
 }
 
-/// Gives a file the owner and the mode of another. Returns whether the file can replace the other
-/// without a difference to other users: it cannot if the other has further hard links, or if its
-/// owner cannot be kept.
-#[cfg(unix)]
-fn keep_owner_and_mode(file: &File, earlier: &fs::Metadata) -> io::Result<bool> {
-    use std::os::unix::fs::{MetadataExt as _, fchown};
-    let present = file.metadata()?;
-    let to_change = |present: u32, earlier: u32| (present != earlier).then_some(earlier);
-    let (user, group) =
-        (to_change(present.uid(), earlier.uid()), to_change(present.gid(), earlier.gid()));
-    let is_kept = (user.is_none() && group.is_none()) || fchown(file, user, group).is_ok();
-    // The mode is set after the owner, because a change of the owner clears some bits of the mode.
-    file.set_permissions(earlier.permissions())?;
-    Ok(is_kept && earlier.nlink() == 1)
-}
-
-#[cfg(not(unix))]
-fn keep_owner_and_mode(_: &File, _: &fs::Metadata) -> io::Result<bool> {
-    Ok(true)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::staging::TEMPORARY_PREFIX;
 
     #[test]
     fn a_file_is_replaced_whole_and_nothing_else_is_left() {

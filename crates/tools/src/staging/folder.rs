@@ -6,11 +6,8 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::staging::StagingError;
-use crate::staging::file_list::{self, FileList, first_names};
-use crate::staging::leftovers::{
-    PREVIOUS_FOLDER, partial_prefix, remove_leftovers_once, restore_previous,
-};
-use crate::staging::locked_folder::LockedFolder;
+use crate::staging::file_list::{self, FileList};
+use crate::staging::scratch_folder::{ScratchFolder, remove_leftovers_once};
 
 /// The kind of an output folder, which identifies folders that may be replaced. A folder of any
 /// kind is replaced only if every file in it is on its list, `.foveate`, and unchanged.
@@ -29,7 +26,7 @@ pub struct StagedFolder {
     /// The path as the user gave it.
     user_path: PathBuf,
     target: PathBuf,
-    place: LockedFolder,
+    place: ScratchFolder,
     kind: FolderKind,
     replace: bool,
 }
@@ -52,9 +49,9 @@ impl StagedFolder {
         remove_leftovers_once(parent);
         check_replaceable(&resolved, target, kind, replace)?;
         fs::create_dir_all(parent).map_err(StagingError::unwritable(target))?;
-        let locked = LockedFolder::create(parent, &partial_prefix(name));
-        let locked = locked.map_err(StagingError::unwritable(target))?;
-        Ok(Self { user_path: target.to_owned(), target: resolved, place: locked, kind, replace })
+        let place = ScratchFolder::beside(parent, name);
+        let place = place.map_err(StagingError::unwritable(target))?;
+        Ok(Self { user_path: target.to_owned(), target: resolved, place, kind, replace })
     }
 
     /// Checks whether [`StagedFolder::new`] would accept `target`, without creating anything, so
@@ -72,16 +69,13 @@ impl StagedFolder {
     /// Fails if `target` has contents that may not be removed, or cannot be removed.
     pub fn remove(target: &Path, kind: FolderKind) -> Result<(), StagingError> {
         check_replaceable(target, target, kind, true)?;
-        if !target.is_dir() {
-            return Ok(());
-        }
         file_list::remove_listed(target).map(drop).map_err(StagingError::unwritable(target))
     }
 
     /// Returns the working folder.
     #[must_use]
     pub fn folder(&self) -> &Path {
-        self.place.work()
+        self.place.path()
     }
 
     /// Converts a path in [`StagedFolder::folder`] to the path that the user will see.
@@ -132,20 +126,19 @@ impl StagedFolder {
     /// written.
     pub fn commit(self) -> Result<(), StagingError> {
         let Self { user_path, target, place, kind, replace } = self;
-        file_list::write_list(place.work());
+        file_list::write_list(place.path());
         let unwritable = StagingError::unwritable(&user_path);
-        let Ok(previous_mode) = fs::metadata(&target).map(|about| about.permissions()) else {
-            return fs::rename(place.work(), &target).map_err(unwritable);
-        };
-        fs::set_permissions(place.work(), previous_mode).map_err(&unwritable)?;
         // The previous folder is moved away before it is checked, so that no other program writes
         // into it meanwhile. It is removed last, so that one of the two folders always exists.
-        let previous = place.sibling(PREVIOUS_FOLDER);
-        fs::rename(&target, &previous).map_err(&unwritable)?;
+        let previous = place.previous();
+        if let Ok(about) = fs::metadata(&target) {
+            fs::set_permissions(place.path(), about.permissions()).map_err(&unwritable)?;
+            fs::rename(&target, &previous).map_err(&unwritable)?;
+        }
         let replaced = check_replaceable(&previous, &user_path, kind, replace)
-            .and_then(|()| fs::rename(place.work(), &target).map_err(&unwritable));
+            .and_then(|()| fs::rename(place.path(), &target).map_err(&unwritable));
         if let Err(error) = replaced {
-            restore_previous(&place, &target);
+            place.restore_previous(&target);
             return Err(error);
         }
         match file_list::remove_listed(&previous) {
@@ -167,35 +160,32 @@ fn check_replaceable(
 ) -> Result<(), StagingError> {
     let path = || shown.to_owned();
     let failed = StagingError::unwritable(shown);
-    let mut entries = match fs::read_dir(folder) {
-        Ok(entries) => entries,
-        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+    let is_empty = match fs::read_dir(folder) {
+        Ok(mut entries) => entries.next().is_none(),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => true,
         Err(source) => return Err(failed(source)),
     };
-    if entries.next().is_none() {
+    if is_empty {
         return Ok(());
     }
-    match (replace, (kind.matches)(folder)) {
-        (false, _) => return Err(StagingError::NotEmpty { path: path() }),
-        (true, false) => {
-            return Err(StagingError::OtherContent { path: path(), what: kind.description });
-        }
-        (true, true) => {}
+    if !replace {
+        return Err(StagingError::NotEmpty { path: path() });
+    }
+    if !(kind.matches)(folder) {
+        return Err(StagingError::OtherContent { path: path(), what: kind.description });
     }
     let list = FileList::read(folder).map_err(&failed)?;
-    let Some(list) = list else { return Err(StagingError::NoList { path: path() }) };
-    let found = file_list::files_below(folder).map_err(&failed)?;
-    let foreign: Vec<String> =
-        found.iter().filter_map(|file| list.difference(&file.name, &file.path)).collect();
-    if foreign.is_empty() {
-        return Ok(());
-    }
-    Err(StagingError::UnlistedFiles { path: path(), names: first_names(&foreign) })
+    let list = list.ok_or_else(|| StagingError::NoList { path: path() })?;
+    let files = file_list::files_below(folder).map_err(&failed)?;
+    let foreign = list.differences(&files);
+    foreign.map_or(Ok(()), |names| Err(StagingError::UnlistedFiles { path: path(), names }))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cache_key::sha256_hex;
+    use crate::staging::names_in;
 
     const KIND: FolderKind = FolderKind {
         description: "a test (marker)",
@@ -208,34 +198,23 @@ mod tests {
         staged.commit()
     }
 
-    fn names(folder: &Path) -> Vec<String> {
-        let mut names: Vec<String> = fs::read_dir(folder)
-            .unwrap()
-            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-            .collect();
-        names.sort();
-        names
-    }
-
     #[test]
-    fn a_folder_appears_whole() {
+    fn a_folder_appears_whole_or_not_at_all() {
         let dir = tempfile::tempdir().unwrap();
         let target = dir.path().join("a/b");
-        let staged = StagedFolder::new(&target, KIND, false).unwrap();
-        staged.write("deep/down/file", b"1").unwrap();
-        assert!(!target.exists());
-        staged.commit().unwrap();
+        for is_whole in [false, true] {
+            let staged = StagedFolder::new(&target, KIND, false).unwrap();
+            staged.write("deep/down/file", b"1").unwrap();
+            assert!(!target.exists());
+            if is_whole {
+                staged.commit().unwrap();
+            } else {
+                drop(staged);
+                assert!(names_in(&dir.path().join("a")).is_empty());
+            }
+        }
         assert_eq!(fs::read(target.join("deep/down/file")).unwrap(), b"1");
-        assert_eq!(names(&dir.path().join("a")), ["b"]);
-    }
-
-    #[test]
-    fn a_dropped_folder_leaves_nothing() {
-        let dir = tempfile::tempdir().unwrap();
-        let staged = StagedFolder::new(&dir.path().join("out"), KIND, false).unwrap();
-        staged.write("file", b"1").unwrap();
-        drop(staged);
-        assert!(names(dir.path()).is_empty());
+        assert_eq!(names_in(&dir.path().join("a")), ["b"]);
     }
 
     #[test]
@@ -246,10 +225,10 @@ mod tests {
         write(&target, "marker", false).unwrap();
         assert!(matches!(write(&target, "marker", false), Err(StagingError::NotEmpty { .. })));
         write(&target, "other", true).unwrap();
-        assert_eq!(names(&target), [".foveate", "other"]);
+        assert_eq!(names_in(&target), [".foveate", "other"]);
         let refused = write(&target, "marker", true).unwrap_err();
         assert!(refused.to_string().contains("does not hold a test (marker)"), "{refused}");
-        assert_eq!(names(dir.path()), ["out"]);
+        assert_eq!(names_in(dir.path()), ["out"]);
     }
 
     /// Writes a marker and a file whose name needs escaping.
@@ -277,7 +256,7 @@ mod tests {
         assert!(refused.contains("#b, a, deep/.foveate and 2 more; move them"), "{refused}");
         assert!(StagedFolder::check(&target, KIND, true).is_err());
         assert_eq!(fs::read(target.join("deep/notes")).unwrap(), b"mine");
-        assert_eq!(names(dir.path()), ["out"]);
+        assert_eq!(names_in(dir.path()), ["out"]);
     }
 
     #[test]
@@ -293,7 +272,7 @@ mod tests {
         fs::write(target.join("marker"), "contents").unwrap();
         StagedFolder::remove(&target, KIND).unwrap();
         StagedFolder::remove(&target, KIND).unwrap();
-        assert!(names(dir.path()).is_empty());
+        assert!(names_in(dir.path()).is_empty());
     }
 
     /// A list that names files elsewhere, by paths and through links, affects none of them.
@@ -305,22 +284,12 @@ mod tests {
         let (target, elsewhere) = (dir.path().join("out"), dir.path().join("thesis"));
         fs::create_dir(&elsewhere).unwrap();
         fs::write(elsewhere.join("text"), "thesis").unwrap();
-        let line = |name: &str| {
-            format!("{}  {name}\n", String::from_utf8(file_list::hash(b"thesis")).unwrap())
-        };
-        let write_forged_list = |names: &[&str]| {
-            let text: String = names.iter().map(|name| line(name)).collect();
-            fs::write(target.join(".foveate"), text).unwrap();
-        };
         write_listed(&target).unwrap();
-        let true_list = fs::read_to_string(target.join(".foveate")).unwrap();
+        let list = target.join(".foveate");
         let absolute = elsewhere.join("text").display().to_string();
         let names = ["../thesis/text", &absolute, "link", "folder/text", "folder"];
-        fs::write(
-            target.join(".foveate"),
-            names.iter().map(|name| line(name)).collect::<String>() + &true_list,
-        )
-        .unwrap();
+        let lines = names.map(|name| format!("{}  {name}\n", sha256_hex("thesis"))).concat();
+        fs::write(&list, lines + &fs::read_to_string(&list).unwrap()).unwrap();
         symlink(elsewhere.join("text"), target.join("link")).unwrap();
         symlink(&elsewhere, target.join("folder")).unwrap();
         let refused = write_listed(&target).unwrap_err().to_string();
@@ -329,12 +298,14 @@ mod tests {
         fs::remove_file(target.join("folder")).unwrap();
         write_listed(&target).unwrap();
         assert_eq!(fs::read(elsewhere.join("text")).unwrap(), b"thesis");
-        // In this case the list itself is a link.
-        write_forged_list(&["marker"]);
-        fs::rename(target.join(".foveate"), elsewhere.join("list")).unwrap();
-        symlink(elsewhere.join("list"), target.join(".foveate")).unwrap();
+        // In this case the list itself is a link, and then there is none.
+        fs::rename(&list, elsewhere.join("list")).unwrap();
+        symlink(elsewhere.join("list"), &list).unwrap();
         assert!(matches!(write_listed(&target), Err(StagingError::NoList { .. })));
         assert!(elsewhere.join("list").is_file());
+        fs::remove_file(&list).unwrap();
+        assert!(matches!(write_listed(&target), Err(StagingError::NoList { .. })));
+        assert_eq!(names_in(&target), ["deep", "marker"]);
     }
 
     #[cfg(unix)]
@@ -363,16 +334,6 @@ mod tests {
         assert_eq!(staged.shown_path(Path::new("/else")), Path::new("/else"));
         let message = staged.with_shown_paths(&format!("no room for {}", inside.display()));
         assert_eq!(message, format!("no room for {}", target.join("a/b").display()));
-    }
-
-    #[test]
-    fn a_folder_without_its_list_is_not_replaced() {
-        let dir = tempfile::tempdir().unwrap();
-        let target = dir.path().join("out");
-        write_listed(&target).unwrap();
-        fs::remove_file(target.join(".foveate")).unwrap();
-        assert!(matches!(write_listed(&target), Err(StagingError::NoList { .. })));
-        assert_eq!(names(&target), ["deep", "marker"]);
     }
 
     #[test]

@@ -51,27 +51,38 @@ impl GrowingFile {
         &mut self.pending
     }
 
-    /// Writes the pending bytes if there are many of them or if `all` is set.
+    /// Writes the pending bytes if there are many of them.
+    ///
+    /// # Errors
+    /// Fails like [`GrowingFile::write_all`].
+    pub fn write_pending(&mut self) -> Result<(), StagingError> {
+        if self.pending.len() < WRITE_THRESHOLD { Ok(()) } else { self.write_all() }
+    }
+
+    /// Writes all pending bytes.
     ///
     /// # Errors
     /// Fails if the disk is full or the file cannot be written. Bytes that were not written are
     /// kept.
-    pub fn write_pending(&mut self, all: bool) -> Result<(), StagingError> {
-        if self.pending.len() < WRITE_THRESHOLD && !all {
-            return Ok(());
+    pub fn write_all(&mut self) -> Result<(), StagingError> {
+        let unwritable = StagingError::unwritable(&self.path);
+        while !self.pending.is_empty() {
+            match self.file.write(&self.pending) {
+                Ok(0) => return Err(unwritable(io::ErrorKind::WriteZero.into())),
+                Ok(written) => drop(self.pending.drain(..written)),
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                Err(error) => return Err(unwritable(error)),
+            }
         }
-        let mut written = 0;
-        let result = write_all_counted(&mut self.file, &self.pending, &mut written);
-        self.pending.drain(..written);
-        result.map_err(StagingError::unwritable(&self.path))
+        Ok(())
     }
 
     /// Writes all pending bytes, and then overwrites bytes at the offset `at`.
     ///
     /// # Errors
-    /// Fails like [`GrowingFile::write_pending`].
+    /// Fails like [`GrowingFile::write_all`].
     pub fn overwrite(&mut self, at: u64, bytes: &[u8]) -> Result<(), StagingError> {
-        self.write_pending(true)?;
+        self.write_all()?;
         self.file
             .seek(SeekFrom::Start(at))
             .and_then(|_| self.file.write_all(bytes))
@@ -79,19 +90,6 @@ impl GrowingFile {
             .map(drop)
             .map_err(StagingError::unwritable(&self.path))
     }
-}
-
-/// Writes all bytes like `write_all`, and counts those that were written even if it fails.
-fn write_all_counted(file: &mut File, bytes: &[u8], written: &mut usize) -> io::Result<()> {
-    while let Some(rest) = bytes.get(*written..).filter(|rest| !rest.is_empty()) {
-        match file.write(rest) {
-            Ok(0) => return Err(io::ErrorKind::WriteZero.into()),
-            Ok(count) => *written += count,
-            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-            Err(error) => return Err(error),
-        }
-    }
-    Ok(())
 }
 
 #[cfg(test)]
@@ -104,13 +102,13 @@ mod tests {
         let path = dir.path().join("file");
         let mut file = GrowingFile::create(&path).unwrap();
         file.append(b"head");
-        file.write_pending(false).unwrap();
+        file.write_pending().unwrap();
         assert_eq!(std::fs::read(&path).unwrap(), b"");
         file.append(&[7; WRITE_THRESHOLD]);
-        file.write_pending(false).unwrap();
+        file.write_pending().unwrap();
         file.overwrite(0, b"HE").unwrap();
         file.append(b"end");
-        file.write_pending(true).unwrap();
+        file.write_all().unwrap();
         let bytes = std::fs::read(&path).unwrap();
         assert_eq!((&bytes[..5], bytes.len()), (&b"HEad\x07"[..], WRITE_THRESHOLD + 7));
         assert!(GrowingFile::create_new(&path).is_err(), "nothing is written over");
@@ -121,7 +119,7 @@ mod tests {
     fn bytes_that_do_not_fit_on_the_disk_are_kept() {
         let mut file = GrowingFile::create(Path::new("/dev/full")).unwrap();
         file.append(b"kept");
-        let error = file.write_pending(true).unwrap_err();
+        let error = file.write_all().unwrap_err();
         assert!(error.is_full() && error.to_string().contains("/dev/full"), "{error}");
         assert_eq!(file.pending_mut(), b"kept");
     }

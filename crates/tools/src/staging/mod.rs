@@ -13,8 +13,6 @@ mod file;
 mod file_list;
 mod folder;
 mod growing_file;
-mod leftovers;
-mod locked_folder;
 mod scratch_folder;
 mod space_reserve;
 
@@ -23,6 +21,15 @@ pub use error::{StagingError, is_full};
 pub use file::{check_file, write_file};
 pub use folder::{FolderKind, StagedFolder};
 pub use growing_file::GrowingFile;
-pub use leftovers::TEMPORARY_PREFIX;
-pub use scratch_folder::ScratchFolder;
+pub use scratch_folder::{ScratchFolder, TEMPORARY_PREFIX};
 pub use space_reserve::{SpaceReserve, has_room};
+
+/// Returns the sorted names in a folder.
+#[cfg(test)]
+fn names_in(folder: &std::path::Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).unwrap();
+    let mut names: Vec<_> =
+        entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    names
+}

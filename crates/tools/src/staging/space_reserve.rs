@@ -2,62 +2,55 @@
 //! Disk space that is reserved for the end of a run, so that an output can be completed on a full
 //! disk.
 
-use std::fs::{self, File};
-use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::fs::File;
+use std::io::Write as _;
+use std::path::Path;
 
-/// A file that occupies disk space, and frees it when it is dropped.
+/// A file without a name that occupies disk space, and frees it when it is dropped. It is `None` if
+/// there is no such file; the run then ends without reserved space.
 #[derive(Debug)]
-pub struct SpaceReserve {
-    path: PathBuf,
-}
+pub struct SpaceReserve(Option<File>);
 
 impl SpaceReserve {
-    /// Occupies `bytes` in `folder` with a file of this name, or half of the free space if there is
-    /// less.
+    /// Occupies `bytes` of the disk of `folder`, or half of the free space if there is less.
     #[must_use]
-    pub fn new(folder: &Path, name: &str, bytes: u64) -> Self {
-        let reserve = Self { path: folder.join(name) };
-        // A failure is ignored; the run then ends without reserved space.
-        let _ = fill_with_zeros(&reserve.path, bytes);
+    pub fn new(folder: &Path, bytes: u64) -> Self {
+        let reserve = Self(tempfile::tempfile_in(folder).ok());
+        let written = reserve.fill(bytes);
+        if written < bytes {
+            reserve.shrink(written / 2);
+        }
         reserve
+    }
+
+    /// Frees all space but this number of bytes.
+    pub fn shrink(&self, bytes: u64) {
+        if let Some(file) = &self.0
+            && file.metadata().is_ok_and(|about| about.len() > bytes)
+        {
+            // If this fails, the space is freed when the reserve is dropped.
+            let _ = file.set_len(bytes);
+        }
+    }
+
+    /// Writes at least this number of zeros, because a file without data occupies no space. Returns
+    /// the number of bytes that found space.
+    fn fill(&self, bytes: u64) -> u64 {
+        static BLOCK: [u8; 1 << 14] = [0; 1 << 14];
+        let mut written = 0;
+        while written < bytes
+            && self.0.as_ref().is_some_and(|mut file| file.write_all(&BLOCK).is_ok())
+        {
+            written += BLOCK.len() as u64;
+        }
+        written
     }
 }
 
 /// Returns whether a folder has room for this number of bytes.
 #[must_use]
 pub fn has_room(folder: &Path, bytes: u64) -> bool {
-    // The file has no name on Unix, so that a killed process leaves nothing in the folder.
-    tempfile::tempfile_in(folder).and_then(|mut file| write_zeros(&mut file, bytes).1).is_ok()
-}
-
-impl Drop for SpaceReserve {
-    fn drop(&mut self) {
-        // If this fails, the file is removed with its folder.
-        let _ = fs::remove_file(&self.path);
-    }
-}
-
-/// Fills a new file with zeros, because a file without data occupies no space.
-fn fill_with_zeros(path: &Path, bytes: u64) -> io::Result<()> {
-    let mut file = File::create_new(path)?;
-    match write_zeros(&mut file, bytes) {
-        (_, Ok(())) => Ok(()),
-        (written, Err(_)) => file.set_len(written / 2),
-    }
-}
-
-/// Writes at least this number of zeros. Returns the number of bytes that were written.
-fn write_zeros(file: &mut File, bytes: u64) -> (u64, io::Result<()>) {
-    static BLOCK: [u8; 1 << 14] = [0; 1 << 14];
-    let mut written = 0;
-    while written < bytes {
-        if let Err(error) = file.write_all(&BLOCK) {
-            return (written, Err(error));
-        }
-        written += BLOCK.len() as u64;
-    }
-    (written, Ok(()))
+    SpaceReserve(tempfile::tempfile_in(folder).ok()).fill(bytes) >= bytes
 }
 
 #[cfg(test)]
@@ -65,13 +58,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_reserve_occupies_space_until_it_is_dropped() {
+    fn a_reserve_occupies_space_and_has_no_name() {
         let dir = tempfile::tempdir().unwrap();
         assert!(has_room(dir.path(), 100_000));
         assert!(!has_room(&dir.path().join("missing"), 1));
-        let reserve = SpaceReserve::new(dir.path(), ".reserve", 100_000);
-        assert!(fs::metadata(&reserve.path).unwrap().len() >= 100_000);
-        drop(reserve);
-        assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0);
+        let reserve = SpaceReserve::new(dir.path(), 100_000);
+        let length = || reserve.0.as_ref().unwrap().metadata().unwrap().len();
+        assert!(length() >= 100_000);
+        reserve.shrink(50_000);
+        reserve.shrink(70_000);
+        assert_eq!(length(), 50_000);
+        assert_eq!(std::fs::read_dir(dir.path()).unwrap().count(), 0);
     }
 }

@@ -60,8 +60,8 @@ impl FrameSink for IdxImageSink {
         Ok(())
     }
 
-    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        self.file.write_out(all)
+    fn write_out(&mut self) -> Result<(), SimulatorError> {
+        self.file.write_out()
     }
 
     fn finish(self: Box<Self>) -> Result<(), SimulatorError> {
@@ -84,8 +84,8 @@ impl FrameSink for IdxLabelSink {
         Ok(())
     }
 
-    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        self.file.write_out(all)
+    fn write_out(&mut self) -> Result<(), SimulatorError> {
+        self.file.write_out()
     }
 
     fn finish(self: Box<Self>) -> Result<(), SimulatorError> {

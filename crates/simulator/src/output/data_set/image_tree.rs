@@ -89,9 +89,9 @@ impl FrameSink for ImageTreeSink {
         Ok(())
     }
 
-    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
-        self.writers.check_written(all)?;
-        self.table.write_out(all)
+    fn write_out(&mut self) -> Result<(), SimulatorError> {
+        self.writers.check_written()?;
+        self.table.write_pending()
     }
 
     fn max_bytes_owed(&self, camera: &Camera) -> u64 {
@@ -99,7 +99,7 @@ impl FrameSink for ImageTreeSink {
     }
 
     fn finish(mut self: Box<Self>) -> Result<(), SimulatorError> {
-        self.table.write_out(true)?;
+        self.table.write_all()?;
         self.writers.finish()
     }
 }
