@@ -56,7 +56,8 @@ impl ClockFigures {
 
 /// The clocks of the clip and their open files.
 pub(super) struct ClockFiles {
-    clip: TimedClip,
+    /// The clip, until it has ended.
+    clip: Option<TimedClip>,
     rows: ClockRows,
     latency: LatencyFiles,
     folder: PathBuf,
@@ -85,7 +86,7 @@ impl ClockFiles {
         let rows = ClockRows { csv, parquet, array, figures: ClockFigures::default() };
         let latency = LatencyFiles::create(folder, design, options.clock_hz)?;
         let clip = TimedClip::new(design, options.clock_hz, &options.sink);
-        Ok(Self { clip, rows, latency, folder: folder.to_owned() })
+        Ok(Self { clip: Some(clip), rows, latency, folder: folder.to_owned() })
     }
 
     /// Adds the rows that are certain after a frame.
@@ -93,6 +94,7 @@ impl ClockFiles {
         let Self { clip, rows, latency, .. } = self;
         let source = sink_frame.source;
         let pixels = source.frame.borrowed_pixels();
+        let Some(clip) = clip else { return Ok(()) };
         if let Some(frame) = clip.step(pixels, source.time_us, &mut |row| rows.push(row))? {
             latency.push(&frame);
         }
@@ -104,25 +106,17 @@ impl ClockFiles {
         self.latency.write_pending()
     }
 
-    /// Adds the rows that still come after the last frame. Returns the files that remain to be
-    /// completed, and that of Parquet, which can be left out.
-    pub(super) fn end(self) -> (ClockTables, Option<ParquetFile>) {
-        let Self { clip, mut rows, mut latency, folder } = self;
-        clip.finish(&mut |row| rows.push(row)).for_each(|frame| latency.push(&frame));
-        let parquet = rows.parquet.take();
-        (ClockTables { rows, latency, folder }, parquet)
+    /// Adds the rows that still come after the last frame. Returns the Parquet file, which can be
+    /// left out.
+    pub(super) fn end(&mut self) -> Option<ParquetFile> {
+        let Self { clip, rows, latency, .. } = self;
+        if let Some(clip) = clip.take() {
+            clip.finish(&mut |row| rows.push(row)).for_each(|frame| latency.push(&frame));
+        }
+        rows.parquet.take()
     }
-}
 
-/// The files of a clip that has ended.
-pub(super) struct ClockTables {
-    rows: ClockRows,
-    latency: LatencyFiles,
-    folder: PathBuf,
-}
-
-impl ClockTables {
-    /// Completes the files, and draws the charts.
+    /// Completes the other files, and draws the charts.
     pub(super) fn finish(self) -> Result<ClockFigures, SimulatorError> {
         self.rows.csv.map_or(Ok(()), |mut csv| csv.write_all())?;
         self.rows.array.map_or(Ok(()), NpyWriter::finish)?;

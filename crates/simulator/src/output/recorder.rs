@@ -13,7 +13,7 @@ use foveate_pixels::FramePixels;
 use foveate_tools::SpaceReserve;
 use rayon::prelude::*;
 
-use super::clock_files::{ClockFiles, ClockTables};
+use super::clock_files::ClockFiles;
 use super::data_set::{self, DataSetPaths};
 use super::frame_packets::PacketFileSink;
 use super::frame_table::{FrameRow, FrameTable};
@@ -35,9 +35,11 @@ pub(crate) const INTERRUPTED: &str = "interrupted";
 pub(crate) const DISK_FULL: &str = "disk full";
 /// The number of bytes of an output that may wait in memory, besides those of its last frame.
 const BUFFER_BYTES: u64 = 1 << 17;
-/// The space in bytes that is reserved for the arrays, the charts and the summary, and once more for
-/// a group of a Parquet file.
-const MIN_RESERVE_BYTES: u64 = 1 << 20;
+/// The space in bytes that is reserved for a group of a Parquet file.
+const GROUP_BYTES: u64 = 1 << 20;
+/// The space in bytes that is reserved for the ends of the arrays and tables, the charts and the
+/// summary.
+const LAST_BYTES: u64 = 1 << 21;
 /// The bytes of a pixel and of a region that may have to be written of the last frames.
 const PIXEL_BYTES: u64 = 8;
 const REGION_BYTES: u64 = 1 << 10;
@@ -63,10 +65,10 @@ pub(crate) struct RunRecorder {
     sinks: Vec<Box<dyn FrameSink>>,
     data_set: Option<DataSetPaths>,
     totals: RunTotals,
-    /// The disk space with which the files can be completed on a full disk.
-    reserve: SpaceReserve,
-    /// The part of it for the files that are never left out.
-    needed_bytes: u64,
+    /// The disk space for what waits in memory when the disk is full.
+    reserve: Option<SpaceReserve>,
+    /// The disk space with which the files that are never left out are completed.
+    last_reserve: SpaceReserve,
 }
 
 impl RunRecorder {
@@ -124,22 +126,16 @@ impl RunRecorder {
         let pixel_events =
             pixel_events.is_wanted().then(|| PixelEventFiles::create(folder, design, pixel_events));
         let (clocks, pixel_events) = (clocks.transpose()?, pixel_events.transpose()?);
-        let bytes_owed = |is_expendable: bool| -> u64 {
-            let sinks = sinks.iter();
-            let sinks = sinks.filter(|sink| sink.expendable_path().is_some() == is_expendable);
-            let owed: u64 = sinks.map(|sink| BUFFER_BYTES + sink.max_bytes_owed(design)).sum();
-            MIN_RESERVE_BYTES + owed
-        };
         let pixels = u64::from(design.width()) * u64::from(design.height());
         let frame_bytes = PIXEL_BYTES * pixels + REGION_BYTES * u64::from(design.regions());
-        let needed_bytes = frame_bytes + bytes_owed(false);
+        let owed: u64 = sinks.iter().map(|sink| BUFFER_BYTES + sink.max_bytes_owed(design)).sum();
         Ok(Self {
             table,
             data_set: options.data_set.then(|| DataSetPaths::of(form)),
             pixel_events,
             clocks,
-            reserve: SpaceReserve::new(folder, needed_bytes + bytes_owed(true)),
-            needed_bytes,
+            reserve: Some(SpaceReserve::new(folder, GROUP_BYTES + frame_bytes + owed)),
+            last_reserve: SpaceReserve::new(folder, LAST_BYTES),
             sinks,
             totals: RunTotals::default(),
             design: design.clone(),
@@ -194,8 +190,8 @@ impl RunRecorder {
         pixels.and(clocks).and(sinks)
     }
 
-    /// Writes the buffered data if there is much of it. On a full disk the data stays in memory, and
-    /// every file has the same frames.
+    /// Writes the buffered data if there is much of it. On a full disk the data stays in memory,
+    /// and every file has the same frames.
     fn write_out(&mut self) -> Result<(), SimulatorError> {
         self.table.write_pending()?;
         self.pixel_events.as_mut().map_or(Ok(()), PixelEventFiles::write_out)?;
@@ -204,38 +200,54 @@ impl RunRecorder {
     }
 
     /// Completes every file and adds the summary. `problem` is the reason why the run ended early,
-    /// if it did. An expendable output is left out if the disk has no space for it: pictures, a
-    /// Parquet table, a video. A video is also left out if its ffmpeg was interrupted.
+    /// if it did. On a full disk the reserved space is released, and the expendable outputs are
+    /// left out as far as necessary: pictures, Parquet tables, videos. A video is also left out if
+    /// its ffmpeg was interrupted.
     pub(crate) fn finish(
-        self,
+        mut self,
         folder: &Path,
         (inputs, luma): (&[String], Option<LumaRange>),
         mut problem: Option<String>,
     ) -> Result<RunSummary, SimulatorError> {
         let interrupted = problem.as_deref() == Some(INTERRUPTED);
-        let mut complete = |path: &Path, finished: Result<(), SimulatorError>| match finished {
-            Err(SimulatorError::VideoOutput { .. }) if interrupted => leave_out(path, &mut problem),
-            Err(error) if error.is_full() => leave_out(path, &mut problem),
-            finished => finished,
+        let may_leave_out = |error: &SimulatorError| {
+            let video = matches!(error, SimulatorError::VideoOutput { .. });
+            error.is_full() || (interrupted && video)
         };
-        let (clocks, clock_table) = self.clocks.map(ClockFiles::end).unzip();
-        let (mut expendable, needed): (Vec<_>, Vec<_>) =
-            self.sinks.into_iter().partition(|sink| sink.expendable_path().is_some());
+        let mut clock_table = self.clocks.as_mut().and_then(ClockFiles::end);
+        let (mut expendable, needed) = std::mem::take(&mut self.sinks)
+            .into_iter()
+            .partition::<Vec<_>, _>(|sink| sink.expendable_path().is_some());
+        self.sinks = needed;
         // Pictures are first, because the reserve has room for them.
         expendable.sort_by_key(|sink| Reverse(sink.max_bytes_owed(&self.design)));
-        self.reserve.shrink(self.needed_bytes);
+        drop(self.reserve.take());
+        while let Err(error) = self.write_out() {
+            // The file is closed when its sink is dropped.
+            let path = expendable.pop().and_then(|sink| sink.expendable_path());
+            let path = path.or_else(|| clock_table.take().map(|table| table.path()));
+            let path = path.filter(|_| error.is_full()).ok_or(error)?;
+            leave_out(&path, &mut problem);
+        }
+        let mut complete = |path: &Path, finished: Result<(), SimulatorError>| match finished {
+            Err(error) if may_leave_out(&error) => {
+                leave_out(path, &mut problem);
+                Ok(())
+            }
+            finished => finished,
+        };
         for sink in expendable {
             let path = sink.expendable_path().unwrap_or_default();
             complete(&path, sink.finish())?;
         }
-        if let Some(table) = clock_table.flatten() {
+        if let Some(table) = clock_table {
             complete(&table.path(), table.finish())?;
         }
-        drop(self.reserve);
+        drop(self.last_reserve);
         self.table.finish()?;
-        needed.into_iter().try_for_each(|sink| sink.finish())?;
+        self.sinks.into_iter().try_for_each(|sink| sink.finish())?;
         let pixel_events = self.pixel_events.map(PixelEventFiles::finish).transpose()?;
-        let clocks = clocks.map(ClockTables::finish).transpose()?;
+        let clocks = self.clocks.map(ClockFiles::finish).transpose()?;
         let summary = RunSummary {
             luma: luma.map(LumaRange::name),
             clocks,
@@ -276,13 +288,12 @@ impl RunRecorder {
 
 /// Removes a file or a folder of pictures that cannot be completed, and names it in the problem of
 /// the run.
-fn leave_out(path: &Path, problem: &mut Option<String>) -> Result<(), SimulatorError> {
+fn leave_out(path: &Path, problem: &mut Option<String>) {
     // The path lies in the folder of this run. If it cannot be removed, the summary still names it.
     let _ = fs::remove_file(path).or_else(|_| fs::remove_dir_all(path));
     let name = path.file_name().expect("an output has a name").display();
     let earlier = problem.as_deref().unwrap_or(DISK_FULL);
     *problem = Some(format!("{earlier}; {name} is left out"));
-    Ok(())
 }
 
 fn count_set(bits: &[bool]) -> u64 {

@@ -17,20 +17,13 @@ impl SpaceReserve {
     pub fn new(folder: &Path, bytes: u64) -> Self {
         let reserve = Self(tempfile::tempfile_in(folder).ok());
         let written = reserve.fill(bytes);
-        if written < bytes {
-            reserve.shrink(written / 2);
-        }
-        reserve
-    }
-
-    /// Frees all space but this number of bytes.
-    pub fn shrink(&self, bytes: u64) {
-        if let Some(file) = &self.0
-            && file.metadata().is_ok_and(|about| about.len() > bytes)
+        if let Some(file) = &reserve.0
+            && written < bytes
         {
             // If this fails, the space is freed when the reserve is dropped.
-            let _ = file.set_len(bytes);
+            let _ = file.set_len(written / 2);
         }
+        reserve
     }
 
     /// Writes at least this number of zeros, because a file without data occupies no space. Returns
@@ -63,11 +56,7 @@ mod tests {
         assert!(has_room(dir.path(), 100_000));
         assert!(!has_room(&dir.path().join("missing"), 1));
         let reserve = SpaceReserve::new(dir.path(), 100_000);
-        let length = || reserve.0.as_ref().unwrap().metadata().unwrap().len();
-        assert!(length() >= 100_000);
-        reserve.shrink(50_000);
-        reserve.shrink(70_000);
-        assert_eq!(length(), 50_000);
+        assert!(reserve.0.as_ref().unwrap().metadata().unwrap().len() >= 100_000);
         assert_eq!(std::fs::read_dir(dir.path()).unwrap().count(), 0);
     }
 }
