@@ -205,11 +205,11 @@ mod tests {
         let check = || {
             let check = ["--check", "--strict", "--quiet", LIST_NAME];
             let mut sha256sum = std::process::Command::new("sha256sum");
-            sha256sum.args(check).current_dir(dir.path()).status().ok()
+            sha256sum.args(check).current_dir(dir.path()).output().ok()
         };
-        assert!(check().is_none_or(|status| status.success()));
+        assert!(check().is_none_or(|output| output.status.success()));
         fs::write(dir.path().join("#hash"), "edited").unwrap();
-        assert!(check().is_none_or(|status| !status.success()));
+        assert!(check().is_none_or(|output| !output.status.success()));
         assert_eq!(list().differences(&files).as_deref(), Some("#hash (changed)"));
         for text in ["", "# comment", "notes.txt", "abc  notes.txt"] {
             fs::write(dir.path().join(LIST_NAME), text).unwrap();
