@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tests of `bench`, end to end, with the tools and without.
 
-use crate::common::{expect_failure, foveate, run_successfully};
+use crate::common::{foveate, run_successfully};
 use foveate_tools::{Tool, testing::require_tools};
 use serde_json::Value;
 
@@ -82,14 +82,6 @@ fn a_level_without_its_tool_says_so() {
         let fits = text.lines().all(|line| line.chars().count() <= columns);
         assert!(fits || !extra.is_empty(), "{text}");
     }
-}
-
-#[test]
-fn what_cannot_be_run_is_refused() {
-    let dir = tempfile::tempdir().unwrap();
-    expect_failure(dir.path(), 2, &["bench", "missing.png"], &["missing.png"]);
-    let seconds = foveate(&["bench", "--seconds", "-1"]).output().unwrap();
-    assert_eq!(seconds.status.code(), Some(2));
 }
 
 /// An interrupt stops the compiler or the simulation, and leaves no folder behind.

@@ -6,22 +6,7 @@ use std::fs;
 
 use serde_json::Value;
 
-use crate::common::{expect_failure, foveate, run_in, run_successfully};
-
-#[test]
-fn boards_are_listed() {
-    let dir = tempfile::tempdir().unwrap();
-    let text = run_successfully(dir.path(), &["build", "--list"]);
-    for name in ["icebreaker", "icesugar", "upduino", "ulx3s", "tang-nano-20k", "vcu118"] {
-        assert!(text.contains(name), "{text}");
-    }
-    let json = run_successfully(dir.path(), &["build", "--list", "--json"]);
-    let boards: Value = serde_json::from_str(&json).unwrap();
-    assert_eq!(boards.as_array().unwrap().len(), 6);
-    assert_eq!(boards[0]["frame"], serde_json::json!([320, 240]));
-    let both = run_in(dir.path(), &["build", "--list", "-o", "out"]);
-    assert_eq!(both.code, 2, "{}", both.stderr);
-}
+use crate::common::{expect_failure, foveate, run_successfully};
 
 #[test]
 fn a_project_is_written_and_a_board_of_ones_own_is_built_from_it() {
@@ -72,33 +57,6 @@ fn a_project_is_written_and_a_board_of_ones_own_is_built_from_it() {
     assert!(text.contains("32 x 16 pixels") && text.contains("vivado -mode batch"), "{text}");
     let top = fs::read_to_string(dir.path().join("array/rtl/board.v")).unwrap();
     assert!(top.contains("localparam COLUMNS = 4;"), "{top}");
-}
-
-#[test]
-fn what_is_wrong_with_a_board_or_its_design_is_said() {
-    let dir = tempfile::tempdir().unwrap();
-    for (args, said) in [
-        (&["--board", "nexys"][..], "unknown board `nexys`; boards are icebreaker,"),
-        (&["--board", "none.toml"], "cannot read `none.toml`"),
-        (&["--board", "ulx3s", "--set", "frame.width=648"], "sends 640 x 480 at most"),
-        (
-            &["--board", "ulx3s", "--set", "hardware.interface='ports'"],
-            "set hardware.interface='axi'",
-        ),
-        (&["--board", "ulx3s", "--set", "frame.width=x"], "frame.width"),
-        (&["--board", "ulx3s", "--preset", "paper"], "a board with a pattern, vcu118"),
-        (&["--board", "vcu118", "--preset", "papers"], "papers"),
-        (&["--board", "vcu118", "--preset", "serial"], "no board supports"),
-        (&["--board", "ulx3s", "--config", "none.toml"], "none.toml"),
-    ] {
-        expect_failure(
-            dir.path(),
-            2,
-            &[&["build", "-o", "out", "--project"], args].concat(),
-            &[said],
-        );
-    }
-    assert!(!dir.path().join("out").exists());
 }
 
 /// A bitstream that is too slow exists and is a failed check. A tool that fails is another case.

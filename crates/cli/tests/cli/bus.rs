@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::common::{expect_failure, run_in, run_successfully};
+use crate::common::{run_in, run_successfully};
 use foveate_tools::{
     Tool, Toolchain,
     testing::{require_tools, takes_whole_lists},
@@ -97,25 +97,6 @@ fn edited_verilog_around_an_array_is_caught_and_replayed() {
     fs::remove_file(dir.path().join("core/rtl/cam0_rcm_axi.v")).unwrap();
     let missing = run_in(dir.path(), &cosim);
     assert!(missing.stderr.contains("no module `cam0_rcm_axi`"), "{}", missing.stderr);
-}
-
-#[test]
-fn options_of_cores_on_axi_are_refused_elsewhere() {
-    let dir = tempfile::tempdir().unwrap();
-    let ports = ["hardware.interface", "\"ports\"", "\"axi\""];
-    expect_failure(dir.path(), 2, &["cosim", "--preset", "raster", "--level", "axi"], &ports);
-    let place = ["estimate", "--preset", "raster", "--place-and-route", "hx8k", "--level", "axi"];
-    expect_failure(dir.path(), 2, &place, &ports);
-    let packets = ["cosim", "--preset", "raster", "scene:street", "--packets", "p.bin"];
-    expect_failure(dir.path(), 2, &packets, &ports);
-    let whole = ["cosim", "--preset", "raster", "scene:street", "--end-to-end", "out"];
-    expect_failure(dir.path(), 2, &whole, &["--end-to-end", "\"axi\""]);
-    assert!(!dir.path().join("out").exists());
-    core(dir.path());
-    let part = ["cosim", "--config", "core/design.toml", "--level", "axi", "--netlist"];
-    expect_failure(dir.path(), 2, &part, &["--level axi", "--netlist"]);
-    let nothing = run_in(dir.path(), &["cosim", "--packets", "p.bin"]);
-    assert!(nothing.code == 2 && nothing.stderr.contains("<INPUT>"), "{}", nothing.stderr);
 }
 
 /// Every C compiler accepts the header and the guide's use of the driver without a warning.

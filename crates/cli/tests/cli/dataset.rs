@@ -44,7 +44,7 @@ fn idx_files_become_data_sets() {
 }
 
 #[test]
-fn a_folder_is_a_set_here_unless_someone_says_otherwise() {
+fn a_folder_is_a_set_here() {
     let dir = tempfile::tempdir().unwrap();
     for (class, name) in [("cat", "1"), ("cat", "2"), ("dog", "1")] {
         fs::create_dir_all(dir.path().join("pets").join(class)).unwrap();
@@ -55,26 +55,6 @@ fn a_folder_is_a_set_here_unless_someone_says_otherwise() {
     let text = run_successfully(dir.path(), &["dataset", "pets", "-o", "out"]);
     assert!(text.contains("data set in out/images, 2 classes"), "{text}");
     assert_eq!(names(&dir.path().join("out/images")), ["cat/1.png", "cat/2.png", "dog/1.png"]);
-    let clip = ["dataset", "pets/cat", "-o", "no", "--images", "clip"];
-    expect_failure(
-        dir.path(),
-        2,
-        &clip,
-        &["pets/cat is a clip", "--images set", "foveate simulate"],
-    );
-    expect_failure(
-        dir.path(),
-        2,
-        &["dataset", "scene:street", "-o", "no"],
-        &["scene:street is a clip"],
-    );
-    fs::create_dir(dir.path().join("clips")).unwrap();
-    fs::write(dir.path().join("clips/a.y4m"), "").unwrap();
-    let clips = ["`clips` holds clips but no images", "foveate simulate"];
-    expect_failure(dir.path(), 2, &["dataset", "clips", "-o", "no"], &clips);
-    let timed = ["dataset", "pets", "-o", "no", "--input-fps", "5"];
-    expect_failure(dir.path(), 2, &timed, &["images of a set have no times"]);
-    assert!(!dir.path().join("no").exists());
 }
 
 /// An interrupt ends a long run soon, with a message, and leaves a set whose header has its length.

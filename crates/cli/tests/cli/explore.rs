@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{expect_failure, files_below, run_in, run_successfully};
+use crate::common::{files_below, run_in, run_successfully};
 use foveate_tools::{
     Tool,
     testing::{require_tools, takes_whole_lists},
@@ -70,68 +70,6 @@ fn the_page_carries_every_configuration_and_loads_nothing() {
     for outside in ["src=\"http", "href=\"http", "@import", "url(http"] {
         assert!(!page.contains(outside), "{outside}");
     }
-}
-
-#[test]
-fn quiet_is_quiet() {
-    let dir = folder_with_space();
-    let quiet = [&RUN[..], &["--quiet"]].concat();
-    let run = run_in(dir.path(), &quiet);
-    assert_eq!((run.code, run.stdout.as_str(), run.stderr.as_str()), (0, "", ""));
-    assert!(dir.path().join("out/report.html").exists());
-    let json = run_successfully(dir.path(), &[&quiet[..], &["--json"]].concat());
-    assert!(json.starts_with('{'), "{json}");
-}
-
-#[test]
-fn mistakes_are_one_line() {
-    let dir = folder_with_space();
-    let wrong = |args: &[&str], parts: &[&str]| expect_failure(dir.path(), 2, args, parts);
-    wrong(
-        &["explore", "spaces", "scene:street", "-o", "x"],
-        &["`spaces`", "approximations and designs"],
-    );
-    fs::write(dir.path().join("bad.toml"), "[vary]\nregion.size = 8\n").unwrap();
-    wrong(&["explore", "bad.toml", "scene:street", "-o", "x"], &["bad.toml", "not a list"]);
-    wrong(&["explore", "space.toml", "scene:nothing", "-o", "x", "--no-area"], &["scene"]);
-    fs::create_dir(dir.path().join("mine")).unwrap();
-    fs::write(dir.path().join("mine/notes.txt"), "mine").unwrap();
-    wrong(
-        &["explore", "space.toml", "scene:street", "-o", "mine", "--no-area"],
-        &["mine", "no exploration"],
-    );
-    let with_tools = require_tools(&[Tool::Yosys]);
-    if with_tools {
-        wrong(&["fit", "scene:street", "--frames", "3"], &["3 frames"]);
-        wrong(&["fit", "scene:street", "--set", "zones={}"], &["leave the table [zones] out"]);
-    }
-    for bad in ["--max-flips=101%", "--target-active=x", "--min-fps=0", "--min-psnr=-1"] {
-        assert_eq!(run_in(dir.path(), &["fit", "scene:street", bad]).code, 2, "{bad}");
-    }
-    let of_a_network = [
-        ("--framing", "letterbox"),
-        ("--mean", "0.5"),
-        ("--scale", "1/255"),
-        ("--detect", "yolox"),
-        ("--min-agreement", "90%"),
-        ("--look-at", "5"),
-    ];
-    for (option, value) in of_a_network {
-        let alone = run_in(dir.path(), &["fit", "scene:street", option, value]);
-        assert_eq!(alone.code, 2, "{option}: {}", alone.stdout);
-        for part in ["required arguments were not provided", "--network <MODEL>", option] {
-            assert!(alone.stderr.contains(part), "{option}: {}", alone.stderr);
-        }
-    }
-}
-
-#[test]
-fn spaces_are_listed_and_printed() {
-    let dir = tempfile::tempdir().unwrap();
-    let list = run_successfully(dir.path(), &["explore", "--list"]);
-    assert_eq!(list.lines().count(), 3, "{list}");
-    let file = run_successfully(dir.path(), &["explore", "designs", "--print"]);
-    assert!(file.contains("[vary]"), "{file}");
 }
 
 #[test]

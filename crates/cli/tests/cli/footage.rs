@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::common::{expect_failure, foveate, run_in};
+use crate::common::{expect_failure, run_in};
 use foveate_tools::{
     Tool,
     testing::{data_folder, require_tools},
@@ -36,46 +36,6 @@ fn pgm(path: &Path, (width, height): (usize, usize), pixel: impl Fn(usize, usize
 }
 
 #[test]
-fn what_is_no_video_is_not_to_be_played() {
-    if !require_tools(&[Tool::Ffmpeg, Tool::Ffprobe]) {
-        return;
-    }
-    let dir = tempfile::tempdir().unwrap();
-    let at = |name: &str| dir.path().join(name);
-    fs::write(at("empty.mp4"), "").unwrap();
-    fs::write(at("t10k-labels-idx1-ubyte"), [0, 0, 8, 1, 0, 0, 0, 2, 7, 1]).unwrap();
-    fs::write(at("floats.idx"), [0, 0, 13, 2, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 0]).unwrap();
-    fs::write(at("notes.txt"), "no footage").unwrap();
-    fs::write(at("broken.mp4"), "no footage").unwrap();
-    for (input, parts) in [
-        ("empty.mp4", &["`empty.mp4` holds no frames: it is empty"][..]),
-        ("t10k-labels-idx1-ubyte", &["IDX file of labels", "name the file of the images"]),
-        ("floats.idx", &["IDX file, but not of 8-bit images"]),
-        ("notes.txt", &["`notes.txt` is not an image", "PNG", "IDX"]),
-        ("v4l2:/dev/none", &["camera `/dev/none` gives no frame", "No such file", "connected"]),
-        ("https://example.org/a.mp4?x=[1]", &["is a URL", "download it first", "yuv4mpegpipe"]),
-        (
-            "rtsp://me:secret@127.0.0.1:9/live",
-            &["camera `rtsp://127.0.0.1:9/live` gives no frame", "refused", "ffprobe URL"],
-        ),
-        ("rtmp://camera/1", &["`rtmp://camera/1` is a URL", "RTSP"]),
-        ("missing.mp4", &["`missing.mp4` does not exist"]),
-    ] {
-        expect_failure(dir.path(), 2, &["simulate", input, "-o", "out"], parts);
-        let outcome = run_in(dir.path(), &["simulate", input, "-o", "out"]);
-        assert!(!outcome.stderr.contains("play it"), "{}", outcome.stderr);
-        assert!(!outcome.stderr.contains("secret"), "{}", outcome.stderr);
-    }
-    // An input that claims to be a video may be a damaged one.
-    expect_failure(
-        dir.path(),
-        2,
-        &["simulate", "broken.mp4", "-o", "out"],
-        &["broken.mp4", "play it"],
-    );
-}
-
-#[test]
 fn a_file_of_several_videos_is_told_of_and_one_is_chosen() {
     if !require_tools(&[Tool::Ffmpeg, Tool::Ffprobe]) {
         return;
@@ -97,60 +57,6 @@ fn a_file_of_several_videos_is_told_of_and_one_is_chosen() {
 }
 
 #[test]
-fn no_frames_at_all_are_not_asked_for() {
-    let dir = tempfile::tempdir().unwrap();
-    for option in ["--frames", "--max-frames"] {
-        let outcome = run_in(dir.path(), &["simulate", "scene:street", "-o", "out", option, "0"]);
-        assert_eq!(outcome.code, 2);
-        assert!(
-            outcome.stderr.contains("'0'") && outcome.stderr.contains("1.."),
-            "{}",
-            outcome.stderr
-        );
-    }
-}
-
-#[test]
-fn images_and_videos_side_by_side_are_a_question() {
-    if !require_tools(&[Tool::Ffmpeg]) {
-        return;
-    }
-    let dir = tempfile::tempdir().unwrap();
-    fs::create_dir_all(dir.path().join("mixed/cat")).unwrap();
-    ffmpeg(dir.path(), "-f lavfi -i testsrc2=size=64x48:rate=10:duration=0.3 mixed/%d.png");
-    ffmpeg(dir.path(), "-i mixed/%d.png -c:v mpeg4 mixed/clip.mp4");
-    fs::copy(dir.path().join("mixed/1.png"), dir.path().join("mixed/cat/1.png")).unwrap();
-    let parts = ["3 and 1", "`mixed/clip.mp4`", "'mixed/*.png'"];
-    for command in ["simulate", "analyze temporal"] {
-        let command: Vec<&str> = command.split(' ').collect();
-        let args = [&command[..], &["mixed", "-o", "out"]].concat();
-        expect_failure(
-            dir.path(),
-            2,
-            &args,
-            &[&parts[..], &["`mixed` holds images and videos"]].concat(),
-        );
-    }
-    let pattern = [&parts[..], &["`mixed/*` holds images and videos"]].concat();
-    expect_failure(dir.path(), 2, &["simulate", "mixed/*", "-o", "out"], &pattern);
-    let videos = ["`mixed/*.mp4` matches videos", "leave the quotation marks out"];
-    expect_failure(dir.path(), 2, &["simulate", "mixed/*.mp4", "-o", "out"], &videos);
-    assert_eq!(messages(dir.path(), &["simulate", "mixed/*.png"]), "");
-    let set = messages(dir.path(), &["dataset", "mixed"]);
-    assert!(
-        set.contains("warning: a set consists of images: videos in `mixed`, 1 in all"),
-        "{set}"
-    );
-    fs::remove_file(dir.path().join("mixed/clip.mp4")).unwrap();
-    let clip = messages(dir.path(), &["simulate", "mixed"]);
-    assert!(
-        clip.contains("warning: images and videos in folders below `mixed`, such as `mixed/cat`"),
-        "{clip}"
-    );
-    assert_eq!(messages(dir.path(), &["dataset", "mixed"]), "");
-}
-
-#[test]
 fn an_animated_png_is_a_clip() {
     if !require_tools(&[Tool::Ffmpeg, Tool::Ffprobe]) {
         return;
@@ -169,57 +75,6 @@ fn an_animated_png_is_a_clip() {
     let parts = ["`frames/6.png` holds several frames", "on its own"];
     expect_failure(dir.path(), 2, &["simulate", "frames", "-o", "no"], &parts);
     expect_failure(dir.path(), 2, &["dataset", "frames", "-o", "no"], &parts);
-}
-
-#[test]
-fn images_without_labels_are_reported() {
-    let dir = tempfile::tempdir().unwrap();
-    let header = [0, 0, 8, 3, 0, 0, 0, 2, 0, 0, 0, 16, 0, 0, 0, 16];
-    let images: Vec<u8> = header.into_iter().chain(vec![9; 512]).collect();
-    fs::write(dir.path().join("t10k-images-idx3-ubyte"), images).unwrap();
-    for command in ["simulate", "dataset"] {
-        let said = messages(dir.path(), &[command, "t10k-images-idx3-ubyte"]);
-        for part in
-            ["warning: ", "no file of labels beside it (t10k-labels-idx1-ubyte)", "--labels"]
-        {
-            assert!(said.contains(part), "{said}");
-        }
-    }
-    let labels = "t10k-labels-idx1-ubyte";
-    fs::write(dir.path().join(labels), [0, 0, 8, 1, 0, 0, 0, 2, 7, 1]).unwrap();
-    assert_eq!(messages(dir.path(), &["dataset", "t10k-images-idx3-ubyte"]), "");
-    // Labels for inputs that cannot have labels used to be ignored.
-    pgm(&dir.path().join("a.pgm"), (16, 16), |x, _| x.to_le_bytes()[0]);
-    for input in ["a.pgm", "scene:street"] {
-        let args = ["simulate", input, "--labels", labels, "-o", "no"];
-        expect_failure(dir.path(), 2, &args, &["--labels", labels, "IDX"]);
-    }
-}
-
-/// The commands read a folder of which only a part is used.
-#[test]
-fn every_command_that_reads_clips_says_what_it_leaves_out() {
-    let dir = tempfile::tempdir().unwrap();
-    fs::create_dir_all(dir.path().join("clip/more")).unwrap();
-    for name in ["clip/0.pgm", "clip/1.pgm", "clip/more/0.pgm"] {
-        pgm(&dir.path().join(name), (16, 16), |x, y| (x * y).to_le_bytes()[0]);
-    }
-    fs::write(dir.path().join("space.toml"), "[vary]\nregion.size = [8]\n").unwrap();
-    let warning =
-        "foveate: warning: images and videos in folders below `clip`, such as `clip/more`";
-    for args in [
-        &["simulate", "clip"][..],
-        &["analyze", "temporal", "clip"],
-        &["explore", "space.toml", "clip", "--no-area"],
-    ] {
-        let said = messages(dir.path(), args);
-        assert!(said.starts_with(warning) && said.lines().count() == 1, "{args:?}: {said}");
-    }
-    // The warning comes before the search for tools.
-    let fit =
-        foveate(&["fit", "clip"]).current_dir(dir.path()).env("FOVEATE_YOSYS", "gone").output();
-    let said = String::from_utf8(fit.unwrap().stderr).unwrap();
-    assert!(said.starts_with(warning) && said.lines().count() == 2, "{said}");
 }
 
 /// The inputs are a picture whose rows are pictures themselves, and a photograph of the same shape.

@@ -4,7 +4,7 @@
 
 use std::fs;
 
-use crate::common::{expect_failure, run_in, run_successfully};
+use crate::common::{run_in, run_successfully};
 use serde_json::Value;
 
 const DENOISER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/denoiser.onnx");
@@ -62,24 +62,4 @@ fn each_clip_and_all_clips_are_reported() {
     );
     assert!(tuned.contains("tuned      on 3 counted frames of a, in "), "{tuned}");
     assert!(tuned.contains(" on street"), "{tuned}");
-}
-
-#[test]
-fn clips_that_cannot_be_combined_are_refused_with_advice() {
-    let dir = tempfile::tempdir().unwrap();
-    fs::write(dir.path().join("a.y4m"), stream(64, 48, 3)).unwrap();
-    fs::write(dir.path().join("b.y4m"), stream(48, 48, 3)).unwrap();
-    let infer = |inputs: &[&str], parts: &[&str]| {
-        expect_failure(
-            dir.path(),
-            2,
-            &[&["infer", DENOISER], inputs, &["-o", "out"]].concat(),
-            parts,
-        );
-    };
-    infer(&["a.y4m", "b.y4m"], &["`a` has 64x48", "`b` has 48x48", "--resize", "--crop"]);
-    infer(&["a.y4m", "-"], &["`-` can be read only once, so it must be the only input"]);
-    infer(&["a.y4m", "none.mp4"], &["none.mp4"]);
-    let args = ["infer", DENOISER, "a.y4m", "b.y4m", "-o", "out", "--resize", "32x32"];
-    assert!(run_successfully(dir.path(), &args).contains("6 frames of 32 x 32 pixels"));
 }

@@ -5,7 +5,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{run_in, run_successfully};
+use crate::common::run_successfully;
 use foveate_tools::{Tool, testing::require_tools};
 use serde_json::Value;
 
@@ -64,12 +64,6 @@ fn noise_is_chosen_and_the_same_each_time() {
     assert_eq!((levels[1].1, one[1]["relative_rms"].as_f64()), (1.0, Some(0.0)));
     assert_eq!(of(&["--noise", "0"]), Value::Array(Vec::new()));
     assert!(!infer(dir.path(), &["--frames", "3", "--noise", "0"]).contains("noise "));
-    for wrong in ["-1", "256", "NaN", "loud", "1,,2", ""] {
-        let refused =
-            run_in(dir.path(), &["infer", DENOISER, "scene:street", "-o", "o", "--noise", wrong]);
-        let says = "standard deviations in grey levels of 8 bits, each 0 to 255";
-        assert!(refused.code == 2 && refused.stderr.contains(says), "{wrong}: {}", refused.stderr);
-    }
 }
 
 /// The network sees one of several frames and the camera sees all. The bytes are those of all
@@ -98,9 +92,6 @@ fn the_network_sees_one_of_several_frames() {
     }
     let change = |found: &Value| found["changed_share"].as_f64().unwrap();
     assert!(change(&found) > change(&all));
-    let refused =
-        run_in(dir.path(), &["infer", DENOISER, "scene:street", "-o", "o", "--every", "0"]);
-    assert_eq!(refused.code, 2, "{}", refused.stderr);
 }
 
 /// The agreement under noise is also printed for frames that the search has not seen.

@@ -90,28 +90,6 @@ fn the_range_of_luma_is_chosen_and_named() {
     assert!(json(&dir.path().join("scene/summary.json")).get("luma").is_none());
 }
 
-#[test]
-fn without_ffmpeg_video_ends_with_3_and_the_rest_works() {
-    let dir = tempfile::tempdir().unwrap();
-    fs::write(dir.path().join("a.mp4"), "whatever").unwrap();
-    fs::write(dir.path().join("a.y4m"), y4m(2)).unwrap();
-    let bare = |input: &str| {
-        let args = ["simulate", input, "-o", input.split('.').next_back().unwrap()];
-        foveate(&args)
-            .current_dir(dir.path())
-            .env("PATH", "")
-            .env_remove("FOVEATE_FFMPEG")
-            .output()
-            .unwrap()
-    };
-    let output = bare("a.mp4");
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(3), "{said}");
-    assert!(said.contains("ffmpeg is not installed; install it with"), "{said}");
-    assert!(!dir.path().join("mp4").exists());
-    assert!(bare("a.y4m").status.success() && bare("scene:street").status.success());
-}
-
 /// Inputs in the folder that `--force` replaces would be deleted, so they are refused.
 #[test]
 fn inputs_in_the_output_folder_are_kept() {
@@ -129,44 +107,6 @@ fn inputs_in_the_output_folder_are_kept() {
     }
     assert!(dir.path().join("s/packets.bin").exists());
     run_successfully(dir.path(), &[&simulated[..], &["--force"]].concat());
-}
-
-#[test]
-fn commands_for_one_clip_refuse_several() {
-    let dir = tempfile::tempdir().unwrap();
-    for name in ["two/a", "two/b"] {
-        run_successfully(dir.path(), &["simulate", "scene:street", "--frames", "2", "-o", name]);
-    }
-    for inputs in [&["two/a/rendered", "two/b/rendered"][..], &["two"]] {
-        let explain = [&["explain"], inputs, &["--frame", "0", "--region", "0,0"]].concat();
-        expect_failure(dir.path(), 2, &explain, &["2 clips", "takes one", "two/a"]);
-    }
-}
-
-/// An option without a meaning in a call is refused, and not ignored.
-#[test]
-fn options_without_a_meaning_are_refused() {
-    let dir = tempfile::tempdir().unwrap();
-    for (args, part) in [
-        (
-            &["analyze", "temporal", "scene:street", "-o", "a", "--sensor-events", "x"][..],
-            "--sensor-events is only for the study sensor",
-        ),
-        (
-            &["analyze", "sensor", "scene:street", "-o", "a", "--sensor-start", "5"],
-            "--sensor-events",
-        ),
-        (&["live", "--page", "p.html", "--resize", "64x64"], "INPUT"),
-        (&["explore", "--list", "--json"], "--json"),
-        (&["explore", "designs", "--print", "--markdown"], "--markdown"),
-        (&["view", "-", "--config", "-"], "exclude each other"),
-    ] {
-        let found = run_in(dir.path(), args);
-        assert!(found.code == 2 && found.stderr.contains(part), "{args:?}: {}", found.stderr);
-    }
-    // A folder does not hide a space that comes with the program.
-    fs::create_dir(dir.path().join("designs")).unwrap();
-    assert!(run_successfully(dir.path(), &["explore", "designs", "--print"]).contains("[vary]"));
 }
 
 /// A clip whose name is that of the summary of a batch gets another folder.
@@ -222,27 +162,6 @@ fn a_video_runs_and_a_cut_one_ends_with_1() {
     assert_eq!(json(&dir.path().join("cut/summary.json"))["complete"], false);
 }
 
-#[test]
-fn options_that_make_no_sense_are_refused() {
-    let dir = tempfile::tempdir().unwrap();
-    for (option, value, part) in [
-        ("--resize", "0x4", "640x360"),
-        ("--resize", "10", "640x360"),
-        ("--crop", "4x4", "320x240+16+0"),
-        ("--crop", "4x4+1+2+3", "320x240+16+0"),
-        ("--input-fps", "0", "frames per second"),
-        ("--start", "1:99", "HH:MM:SS"),
-        ("--crop", "999x4+0+0", "224x224"),
-        ("--end", "0", "later than the start"),
-    ] {
-        let args = ["simulate", "scene:street", "-o", "out", option, value];
-        let outcome = run_in(dir.path(), &args);
-        assert_eq!(outcome.code, 2, "{option} {value}: {}", outcome.stderr);
-        assert!(outcome.stderr.contains(part), "{}", outcome.stderr);
-        assert!(!dir.path().join("out").exists());
-    }
-}
-
 /// Numbered images with times of their own, an archive, and raw video give the same decisions.
 #[test]
 fn numbered_images_archives_and_raw_video_are_the_same_clip() {
@@ -289,18 +208,4 @@ fn numbered_images_archives_and_raw_video_are_the_same_clip() {
         assert_eq!(times(folder), ["0", "40000", "80000", "200000"], "{folder}");
     }
     assert_eq!(times("piped"), ["0", "33333", "66667", "100000"]);
-    // A missing number is named, and the images behind it come one frame too early.
-    fs::remove_file(at("f02.pgm")).unwrap();
-    let gap = run_in(dir.path(), &["simulate", "f%02d.pgm", "-o", "gap"]);
-    assert!(gap.code == 0 && gap.stderr.contains("f02.pgm` does not exist"), "{}", gap.stderr);
-    expect_failure(
-        dir.path(),
-        2,
-        &["simulate", "f%02d.pgm", "--timestamps", "times.txt", "-o", "few"],
-        &["it has 4 times, but there are 3 frames"],
-    );
-    let grey = ["simulate", "clip.raw", "--raw", "16x16,grey", "-o", "wrong"];
-    let wrong = run_in(dir.path(), &grey);
-    let said = "the pixel format `grey` is not read; the formats are gray, gray10le";
-    assert!(wrong.code == 2 && wrong.stderr.contains(said), "{}", wrong.stderr);
 }

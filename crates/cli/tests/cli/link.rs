@@ -180,42 +180,6 @@ fn tables_are_markdown_and_quiet_is_quiet() {
 }
 
 #[test]
-fn what_cannot_be_compared_is_refused_and_leaves_nothing() {
-    if !require_tools(&[Tool::Ffmpeg, Tool::Ffprobe]) {
-        return;
-    }
-    let dir = tempfile::tempdir().unwrap();
-    let link = |inputs: &[&str], more: &[&str], parts: &[&str]| {
-        let args = [&["link"], inputs, &["-o", "out"], more].concat();
-        expect_failure(dir.path(), 2, &args, parts);
-        assert!(!dir.path().join("out").exists());
-    };
-    link(&["scene:street"], &["--max-frames", "1"], &["`street` has 1 frame", "at least 2"]);
-    link(
-        &["scene:street"],
-        &["--max-frames", "3", "--set", "frame.pixel_bits=10"],
-        &["10 bits", "frame.pixel_bits = 8"],
-    );
-    link(&["scene:street"], &["--max-frames", "3", "--clock", "10Hz"], &["a faster --clock"]);
-    link(&["none.mp4"], &[], &["none.mp4"]);
-    link(
-        &["scene:street"],
-        &["--max-frames", "4", "--codecs", "h265", "--resize", "7x5"],
-        &["`libx265` does not take `street` of 7x5 pixels: ", "small", "--resize", "`h265` out of"],
-    );
-    // The input is two images of 16x16 pixels.
-    let header = [0, 0, 8, 3, 0, 0, 0, 2, 0, 0, 0, 16, 0, 0, 0, 16];
-    let bytes: Vec<u8> = header.into_iter().chain([7; 512]).collect();
-    fs::write(dir.path().join("train-images"), bytes).unwrap();
-    link(&["train-images"], &[], &["`train-images` is a set of unrelated images"]);
-    fs::create_dir(dir.path().join("mine")).unwrap();
-    fs::write(dir.path().join("mine/file"), "mine").unwrap();
-    let args = ["link", "scene:street", "-o", "mine", "--force"];
-    expect_failure(dir.path(), 2, &args, &["mine"]);
-    assert_eq!(fs::read_to_string(dir.path().join("mine/file")).unwrap(), "mine");
-}
-
-#[test]
 fn a_clip_that_ends_early_is_compared_as_far_as_it_goes() {
     if !require_tools(&[Tool::Ffmpeg, Tool::Ffprobe]) {
         return;

@@ -3,7 +3,7 @@
 //! can be written as a file. The crate `view` tests what is served, and Chromium runs the page.
 #![cfg(unix)]
 
-use crate::common::{expect_failure, run_in, run_successfully};
+use crate::common::run_successfully;
 use crate::served::ServedCommand;
 
 #[test]
@@ -29,19 +29,4 @@ fn the_page_is_one_file() {
     let page = std::fs::read_to_string(dir.path().join("page.html")).unwrap();
     assert!(page.starts_with("<!doctype html>") && page.contains("Foveate, live"));
     assert!(page.len() < 1_000_000, "{} bytes", page.len());
-    expect_failure(dir.path(), 2, &["live", "--page", "no/page.html"], &["no/page.html"]);
-    let both = run_in(dir.path(), &["live", "x.mp4", "--page", "page.html"]);
-    assert!(both.code == 2 && both.stderr.contains("cannot be used with"), "{}", both.stderr);
-}
-
-#[test]
-fn what_cannot_be_played_is_refused() {
-    let dir = tempfile::tempdir().unwrap();
-    let refused = |args: &[&str], parts: &[&str]| {
-        expect_failure(dir.path(), 2, &[&["live"], args].concat(), parts);
-    };
-    refused(&["missing.mp4"], &["`missing.mp4` does not exist"]);
-    refused(&["--set", "region.size=65"], &["region.size", "65"]);
-    refused(&["--preset", "nonsense"], &["nonsense", "fovea"]);
-    refused(&["--address", "0.0.0.0:8000"], &["0.0.0.0:8000", "127.0.0.1"]);
 }

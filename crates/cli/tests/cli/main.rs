@@ -43,7 +43,6 @@ mod silicon;
 mod silicon_explore;
 mod silicon_fit;
 mod simulation;
-mod skipped;
 mod stress;
 mod studies;
 mod synth;

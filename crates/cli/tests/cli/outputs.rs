@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::common::{expect_failure, files_below, foveate, run_successfully};
+use crate::common::{files_below, foveate, run_successfully};
 use foveate_tools::{Tool, testing::require_tools};
 use serde_json::Value;
 
@@ -49,15 +49,6 @@ fn every_option_writes_its_files_and_no_others() {
 }
 
 #[test]
-fn hdf5_is_refused_with_the_way_to_it() {
-    let dir = tempfile::tempdir().unwrap();
-    for name in ["hdf5", "h5", "DSEC"] {
-        let option = format!("--pixel-events=npz,{name}");
-        expect_failure(dir.path(), 2, &simulate(&[&option]), &["HDF5", "npz", "write_dsec"]);
-    }
-}
-
-#[test]
 fn the_summary_compares_the_cameras() {
     let dir = tempfile::tempdir().unwrap();
     let text = run_successfully(dir.path(), &simulate(&["--pixel-events=csv"]));
@@ -75,48 +66,6 @@ fn the_summary_compares_the_cameras() {
         let bytes = format!(" {} bytes (", summary["bandwidth"][key]["bytes"]);
         assert!(line.contains(&bytes), "{line} {bytes}");
     }
-}
-
-#[test]
-fn options_that_say_nothing_are_refused() {
-    let dir = tempfile::tempdir().unwrap();
-    for (options, part) in [
-        (&["--only", "active"][..], "--events"),
-        (&["--log"], "--pixel-events"),
-        (&["--contrast", "3"], "--pixel-events"),
-        (&["--pixel-events", "--contrast", "-1"], "contrast"),
-        (&["--events", "json"], "parquet"),
-        (&["--rendered", "gif"], "mp4"),
-        (&["--rendered", "png", "--no-rendered"], "--no-rendered"),
-    ] {
-        let output = foveate(&simulate(options)).current_dir(dir.path()).output().unwrap();
-        let stderr = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(2), "{options:?}");
-        assert!(stderr.contains(part), "{options:?}: {stderr}");
-    }
-    let too_small = ["--pixel-events", "--contrast", "0.001"];
-    expect_failure(dir.path(), 2, &simulate(&too_small), &["contrast of 0.001", "0.01"]);
-    assert!(!dir.path().join("out").exists());
-}
-
-/// Without ffmpeg, video is refused with an alternative, and pictures still work.
-#[cfg(unix)]
-#[test]
-fn without_ffmpeg_there_are_pictures() {
-    let dir = tempfile::tempdir().unwrap();
-    let run = |more: &[&str], ffmpeg: &str| {
-        let output = foveate(&simulate(more))
-            .current_dir(dir.path())
-            .env("FOVEATE_FFMPEG", ffmpeg)
-            .output()
-            .unwrap();
-        (output.status.code(), String::from_utf8(output.stderr).unwrap())
-    };
-    let (code, stderr) = run(&["--rendered", "video"], "/nowhere/ffmpeg");
-    assert_eq!(code, Some(3), "{stderr}");
-    assert!(stderr.contains("FOVEATE_FFMPEG") && stderr.contains("--rendered png"), "{stderr}");
-    assert!(fs::read_dir(dir.path()).unwrap().next().is_none(), "nothing is left");
-    assert_eq!(run(&["--overlay"], "/nowhere/ffmpeg").0, Some(0));
 }
 
 /// The message of an ffmpeg that fails is quoted, and no folder is left.
@@ -184,12 +133,4 @@ fn explain_says_why_in_text_and_json() {
         told["action"].as_str().unwrap()
     );
     assert!(row.ends_with(&expected), "{row} {expected}");
-    for (frame, region, parts) in [
-        ("99", "0,0", ["no frame 99", "counted from 0"]),
-        ("0", "8,0", ["no region 8,0", "0 to 7"]),
-    ] {
-        let bad = ["explain", "scene:street", "--frame", frame, "--region", region];
-        let bad = [&bad[..], &["--set", "frame={width=64,height=48}"]].concat();
-        expect_failure(dir.path(), 2, &bad, &parts);
-    }
 }

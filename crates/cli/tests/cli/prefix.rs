@@ -65,17 +65,3 @@ fn a_core_with_a_prefix_passes_its_benches_and_cosim_without_further_options() {
     let chosen = cosim("left/design.toml", "left/rtl", &["--prefix", "left"]);
     expect_failure(dir.path(), 1, &chosen, &["not all of the Verilog", "right_rcm"]);
 }
-
-#[test]
-fn a_prefix_that_is_none_says_what_is_right() {
-    let dir = tempfile::tempdir().unwrap();
-    for (prefix, why) in
-        [("9x", "begin with a letter"), ("a-b", "`-`"), ("wire", "a word of Verilog")]
-    {
-        let args = ["generate", "--prefix", prefix, "-o", "core"];
-        expect_failure(dir.path(), 2, &args, &[why, "such as `cam0`"]);
-    }
-    let outcome = run_in(dir.path(), &["cosim", "--prefix", "cam0"]);
-    assert!(outcome.code == 2 && outcome.stderr.contains("--rtl"), "{}", outcome.stderr);
-    assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0);
-}

@@ -6,8 +6,8 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::common::silicon::{LIBRARY, is_ready, number, write_clip};
-use crate::common::{expect_failure, run_in, run_successfully};
+use crate::common::silicon::{is_ready, number, write_clip};
+use crate::common::{run_in, run_successfully};
 
 /// A space of three organizations: RPUs and lanes have an energy, and a core of `raster` has none.
 const SPACE: &str = "preset = 'bare'\nmethod = 'each'\nclock_mhz = 900\n[design]\nregion.size = 4\n\
@@ -97,27 +97,6 @@ fn points_have_the_figures_of_estimate_and_are_not_measured_twice() {
     assert!(column(dir.path(), "mm2").iter().all(|cell| !cell.is_empty()));
 }
 
-#[test]
-fn an_input_without_activity_is_refused_at_once() {
-    if !is_ready() {
-        return;
-    }
-    let dir = tempfile::tempdir().unwrap();
-    write_clip(dir.path(), 16);
-    fs::write(dir.path().join("space.toml"), SPACE).unwrap();
-    let energy = ["-o", "out", "--energy", "30"];
-    let short = [&INPUTS[..], &energy[..], &["--max-frames", "4", "--liberty"]].concat();
-    expect_failure(dir.path(), 2, &short, &["the clip `clip` has 4 frames", "at least 5"]);
-    assert!(!dir.path().join("out").exists());
-    let sets = ["explore", "space.toml", "clip/01.pgm", "clip/02.pgm", "--images=set"];
-    let sets = [&sets[..], &energy[..], &["--liberty"]].concat();
-    expect_failure(dir.path(), 2, &sets, &["no activity in time"]);
-    for (args, option) in [(&energy[..], "--liberty"), (&["--no-area", "--liberty"], "--no-area")] {
-        let run = run_in(dir.path(), &[&INPUTS[..], args].concat());
-        assert!(run.code == 2 && run.stderr.contains(option), "{}", run.stderr);
-    }
-}
-
 /// A clip that ends early may be complete the next time, so nothing is kept of it.
 #[test]
 #[ignore = "a design is mapped and simulated twice; scripts/release.sh whole runs it"]
@@ -170,29 +149,4 @@ fn a_front_without_areas_is_named_so() {
     assert!(column(dir.path(), "front_area").iter().all(|cell| cell == "false"));
     let page = fs::read_to_string(dir.path().join("out/report.html")).unwrap();
     assert!(!page.contains("Error against area") && !page.contains("Error against mm²"));
-}
-
-/// A fault of a library is found before hours of measurements.
-#[test]
-fn a_library_without_flip_flops_is_refused_at_once() {
-    if !is_ready() {
-        return;
-    }
-    let dir = tempfile::tempdir().unwrap();
-    write_clip(dir.path(), 16);
-    fs::write(dir.path().join("space.toml"), SPACE).unwrap();
-    let nand = "pin (A) { direction : input; } pin (B) { direction : input; } \
-                pin (Y) { direction : output; function : \"!(A B)\"; }";
-    let library = format!("library (bare) {{ cell (NAND) {{ area : 1; {nand} }} }}");
-    fs::write(dir.path().join("bare.lib"), library).unwrap();
-    let args = [&INPUTS[..], &["-o", "out", "--liberty", "bare.lib"][..]].concat();
-    expect_failure(dir.path(), 2, &args, &["flip-flop", "bare"]);
-    // Energies need a voltage.
-    let cells = fs::read_to_string(LIBRARY).unwrap();
-    let without = cells.lines().filter(|line| !line.contains("voltage"));
-    fs::write(dir.path().join("cells.lib"), without.collect::<Vec<_>>().join("\n")).unwrap();
-    let energy = ["-o", "out", "--energy", "30", "--liberty", "cells.lib"];
-    let args = [&INPUTS[..], &energy].concat();
-    expect_failure(dir.path(), 2, &args, &["no nominal voltage"]);
-    assert!(!dir.path().join("out").exists());
 }

@@ -3,11 +3,10 @@
 
 use std::path::Path;
 
-use foveate_tools::{Tool, Toolchain};
 use serde_json::Value;
 
-use crate::common::silicon::{LIBRARY, is_ready, number, write_long_clip};
-use crate::common::{foveate, run_in, run_successfully};
+use crate::common::silicon::{is_ready, number, write_long_clip};
+use crate::common::{run_in, run_successfully};
 
 /// A small task, of which few designs are synthesized. Its clip has too few active regions for limits on
 /// missed regions and false alarms.
@@ -163,35 +162,4 @@ fn limits_of_a_process_can_be_binding() {
         let value = number(fitted, "/value");
         assert!(value > limit.parse().unwrap(), "{value}");
     }
-}
-
-#[test]
-fn an_option_names_the_option_that_it_needs() {
-    let dir = tempfile::tempdir().unwrap();
-    let refused = |args: &[&str], parts: &[&str]| {
-        let run = run_in(dir.path(), &[&["fit", "scene:street"], args].concat());
-        assert_eq!(run.code, 2, "{args:?}: {}", run.stderr);
-        for part in parts {
-            assert!(run.stderr.contains(part), "{args:?}: {}", run.stderr);
-        }
-    };
-    refused(&["--cheapest", "bytes"], &["--cheapest bytes", "--network"]);
-    refused(&["--cheapest", "mm2"], &["--cheapest mm2", "--liberty"]);
-    refused(&["--cheapest", "energy"], &["--cheapest energy", "--liberty"]);
-    refused(&["--max-mm2", "5"], &["required arguments", "--liberty"]);
-    refused(&["--max-mw", "5"], &["required arguments", "--liberty"]);
-    refused(&["--macros", "m.lib"], &["required arguments", "--liberty"]);
-    refused(&["--liberty", LIBRARY, "--max-mw", "0"], &["a number above 0"]);
-    refused(&["--liberty", LIBRARY, "--max-mm2", "inf"], &["a number above 0"]);
-    refused(&["--liberty", "none.lib"], &["cannot read the library `none.lib`"]);
-    if !is_ready() {
-        return;
-    }
-    // Each half needs five frames.
-    refused(&["--frames", "9", "--liberty", LIBRARY], &["9 frames", "10"]);
-    let mut missing = foveate(&["fit", "scene:street", "--liberty", LIBRARY]);
-    let missing = missing.env("FOVEATE_STA", "no-such-sta").output().unwrap();
-    let error = String::from_utf8_lossy(&missing.stderr);
-    assert!(error.contains("no-such-sta"), "{error}");
-    assert!(Toolchain::system().find(Tool::OpenSta).is_ok());
 }

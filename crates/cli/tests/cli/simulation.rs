@@ -7,13 +7,6 @@ use std::path::Path;
 use crate::common::{expect_failure, files_below, run_in, run_successfully};
 use serde_json::Value;
 
-/// Writes a PGM of `size` x `size` pixels with one value.
-fn pgm(path: &Path, size: usize, value: u8) {
-    let mut bytes = format!("P5\n{size} {size}\n255\n").into_bytes();
-    bytes.extend(std::iter::repeat_n(value, size * size));
-    fs::write(path, bytes).unwrap();
-}
-
 #[test]
 fn a_scene_becomes_arrays_pictures_and_a_summary() {
     let dir = tempfile::tempdir().unwrap();
@@ -32,48 +25,6 @@ fn a_scene_becomes_arrays_pictures_and_a_summary() {
     expect_failure(dir.path(), 2, &again, &["out", "not empty"]);
     run_successfully(dir.path(), &[&again[..], &["--force", "--no-rendered"]].concat());
     assert!(!dir.path().join("out/rendered").exists());
-}
-
-#[test]
-fn the_frame_size_comes_from_the_input() {
-    let dir = tempfile::tempdir().unwrap();
-    for frame in 0..3 {
-        pgm(&dir.path().join(format!("f{frame}.pgm")), 20, 10 * frame);
-    }
-    let text = run_successfully(dir.path(), &["simulate", "f*.pgm", "-o", "out"]);
-    assert!(text.contains("3 frames of 20 x 20 pixels, 9 regions"), "{text}");
-    let args = ["simulate", "f0.pgm", "-o", "no", "--set", "frame.width=32"];
-    expect_failure(dir.path(), 2, &args, &["frame.width", "32", "20x20"]);
-    assert!(!dir.path().join("no").exists());
-}
-
-#[test]
-fn bad_inputs_end_with_2_and_leave_nothing() {
-    let dir = tempfile::tempdir().unwrap();
-    let at = |name: &str| dir.path().join(name);
-    pgm(&at("small.pgm"), 16, 0);
-    pgm(&at("large.pgm"), 24, 0);
-    fs::write(at("broken.pgm"), b"P5\n16 16\n255\nshort").unwrap();
-    fs::write(at("text.png"), b"no picture").unwrap();
-    fs::create_dir(at("empty")).unwrap();
-    let fail = |inputs: &[&str], parts: &[&str]| {
-        expect_failure(dir.path(), 2, &[&["simulate"], inputs, &["-o", "out"]].concat(), parts);
-        assert!(!at("out").exists(), "{inputs:?}");
-    };
-    fail(&["small.pgm", "large.pgm"], &["small.pgm", "large.pgm", "16", "24"]);
-    fail(&["broken.pgm"], &["broken.pgm"]);
-    fail(&["text.png"], &["text.png"]);
-    fail(&["empty"], &["empty", "no image"]);
-    fail(&["none-*.png"], &["none-*.png"]);
-    fail(&["missing.png"], &["missing.png", "does not exist"]);
-    fail(&["scene:stret"], &["stret", "street"]);
-    fail(&["scene:street", "small.pgm"], &["scene:street"]);
-    expect_failure(
-        dir.path(),
-        2,
-        &["simulate", "small.pgm", "-o", "small.pgm/out"],
-        &["small.pgm"],
-    );
 }
 
 /// An interrupt ends a long run soon, with a message, and leaves the results so far.
@@ -146,11 +97,4 @@ fn a_camera_of_five_bits_sees_as_much_as_one_of_eight() {
     for share in [active(&five), active(&[&["--config", "camera.toml"], &five[..]].concat())] {
         assert!((share / eight - 1.0).abs() < 0.1, "{share} of {eight}");
     }
-    let args = ["check", "--set", "frame.pixel_bits=5", "--set", "temporal.level=40"];
-    expect_failure(
-        dir.path(),
-        2,
-        &args,
-        &["`temporal.level` = 40", "0..=30", "40 at 8 bits is 5 at 5 bits"],
-    );
 }

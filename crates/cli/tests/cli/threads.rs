@@ -1,33 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Tests of `--threads` and RAYON_NUM_THREADS: the number of threads, the precedence, the refusals,
-//! and equal results.
+//! Tests of `--threads` and RAYON_NUM_THREADS: the number of threads, the precedence, and equal
+//! results.
 
 use std::path::Path;
 
-use crate::common::{files_below, foveate, run_in, run_successfully};
+use crate::common::{files_below, foveate, run_successfully};
 
 const VARIABLE: &str = "RAYON_NUM_THREADS";
-const RIGHT: &str = "expected 1 to 256, or 0, which takes one per processor";
-
-#[test]
-fn a_number_out_of_range_is_refused_with_the_range() {
-    let dir = tempfile::tempdir().unwrap();
-    let simulate = ["simulate", "scene:street", "-o", "out", "--frames", "2", "--quiet"];
-    for number in ["257", "-1", "1000000", "99999999999999999999999", "many", ""] {
-        let outcome = run_in(dir.path(), &[&simulate[..], &["--threads", number]].concat());
-        assert_eq!(outcome.code, 2, "{number}");
-        let says = format!("invalid value '{number}' for '--threads <N>': {RIGHT}");
-        assert!(number.is_empty() || outcome.stderr.contains(&says), "{}", outcome.stderr);
-    }
-    for number in ["257", "-1", "many"] {
-        let output = foveate(&simulate).current_dir(dir.path()).env(VARIABLE, number).output();
-        let output = output.unwrap();
-        let said = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(2));
-        assert_eq!(said, format!("foveate: {VARIABLE} is `{number}`: {RIGHT}\n"));
-    }
-    assert!(!dir.path().join("out").exists());
-}
 
 #[test]
 fn every_number_gives_the_same_files() {

@@ -8,7 +8,7 @@ use std::process::{Child, Stdio};
 
 use serde_json::Value;
 
-use crate::common::{expect_failure, files_below, foveate_with_signals, run_in, run_successfully};
+use crate::common::{expect_failure, files_below, foveate_with_signals, run_successfully};
 use crate::full_disk::run_within;
 
 const SPACE: &str = "[design]\nframe.width = 64\nframe.height = 48\n[vary]\nspatial.0.level = [70, 80, 90, 100]\n\
@@ -85,17 +85,11 @@ fn mistakes_are_one_line() {
         let args = explore(more);
         expect_failure(dir.path(), 2, &args.iter().map(String::as_str).collect::<Vec<_>>(), parts);
     };
-    wrong(&["--only", "17"], &["no unit `17`", "plan again"]);
     let unit = planned(dir.path()).remove(0);
     wrong(&["--only", text(&unit["unit"]), "--rate", "25"], &["no unit", "the options"]);
     fs::write(dir.path().join("space.toml"), SPACE.replace("70", "71")).unwrap();
     wrong(&["--only", text(&unit["unit"])], &["no unit", "the space"]);
     assert!(!dir.path().join("out").exists());
-    for clash in [&["--plan", "--only", "17"][..], &["--plan", "--json"]] {
-        let args = explore(clash);
-        let args: Vec<&str> = args.iter().map(String::as_str).collect();
-        assert_eq!(run_in(dir.path(), &args).code, 2, "{clash:?}");
-    }
 }
 
 #[test]

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use crate::common::{expect_failure, run_successfully};
+use crate::common::run_successfully;
 use crate::served::ServedCommand;
 
 #[test]
@@ -64,19 +64,4 @@ fn a_source_that_sends_nothing_or_noise_without_end_is_left_at_once() {
             assert!(told.ends_with("foveate: interrupted after 0 frames\n"), "{told}");
         }
     }
-}
-
-#[test]
-fn what_cannot_be_shown_is_refused() {
-    let dir = tempfile::tempdir().unwrap();
-    std::fs::write(dir.path().join("packets.bin"), "").unwrap();
-    let refused = |args: &[&str], parts: &[&str]| {
-        expect_failure(dir.path(), 2, &[&["view"], args].concat(), parts);
-    };
-    refused(&["missing.bin"], &["missing.bin"]);
-    refused(&["."], &["folder", "packets.bin"]);
-    refused(&["/dev/null"], &["/dev/null", "not a serial port"]);
-    refused(&["/dev/zero"], &["/dev/zero", "not a serial port"]);
-    refused(&["-", "--play", "looped"], &["not a file", "--play"]);
-    refused(&["packets.bin", "--address", "0.0.0.0:8000"], &["0.0.0.0:8000", "127.0.0.1"]);
 }
