@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
 # Checks files that are not compiled: shell scripts (shellcheck), Python (ruff, and the tests of the scripts), hosted workflows (their
-# schema), the container file (hadolint), CITATION.cff (its schema), the version in all places, the list of all texts that users see,
-# dependencies (cargo-deny: licences, bans, sources; skipped if it is not installed), that no large file is tracked, and that examples
-# in documentation are run. Installs missing tools except cargo-deny.
+# schema), the container file (hadolint), CITATION.cff (its schema), the version in all places, dependencies (cargo-deny: licences,
+# bans, sources; skipped if it is not installed), that no large file is tracked, and that examples in documentation are run. Installs
+# missing tools except cargo-deny.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 scripts/install_tools.sh
@@ -18,7 +18,6 @@ python3 -W error::SyntaxWarning -m unittest discover --quiet --start-directory s
 "$tools/hadolint" Containerfile
 "$tools/check-jsonschema" --builtin-schema vendor.citation-file-format CITATION.cff
 scripts/checks/versions.py
-scripts/checks/messages.py --check
 # No file here must be large, except the engine of the live page, whose page has a limit of its own. A large file is there by mistake.
 large=$(git ls-files -z | xargs -0 -I{} find {} -maxdepth 0 -size +1000k ! -path web/foveate.wasm)
 [ -z "$large" ] || { echo "static: tracked files of more than 1 MB: $large" >&2 && exit 1; }
