@@ -46,6 +46,6 @@ pub use raster::{RasterOutput, RasterRcm};
 pub use region::{RegionView, pad, region_action, region_pixels};
 pub use scorer::RegionScorer;
 pub use serial::{SerialOutput, SerialRcm};
-pub use temporal::{changed_pixels, temporal_differences};
+pub use temporal::changed_pixels;
 pub use thresholds::{ClassMapInputs, ThresholdInputs, ZoneInputs};
 pub use window_filter::filtered_pixel;

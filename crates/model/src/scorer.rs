@@ -270,21 +270,3 @@ impl PixelSquare {
         &self.guarded[y * stride..][..stride]
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_corner_beyond_two_sides_is_the_nearest_pixel_inside() {
-        let pixels = |square: &PixelSquare| square.inner_pixels(4).collect::<Vec<_>>();
-        let mut square = PixelSquare::black(4);
-        square.fill(0..16);
-        square.repeat_borders(TOP | LEFT);
-        assert_eq!(pixels(&square), [5, 5, 6, 7, 5, 5, 6, 7, 9, 9, 10, 11, 13, 13, 14, 15]);
-        square.fill(0..16);
-        square.repeat_borders(BOTTOM | RIGHT);
-        assert_eq!(pixels(&square), [0, 1, 2, 2, 4, 5, 6, 6, 8, 9, 10, 10, 8, 9, 10, 10]);
-        assert_eq!(square.inner_pixels(2).collect::<Vec<_>>(), [5, 6, 9, 10]);
-    }
-}

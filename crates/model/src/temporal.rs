@@ -10,24 +10,6 @@ use crate::region::{RegionArea, black_padded_frame};
 use foveate_camera::RegionAction;
 use foveate_pixels::Frame;
 
-/// Returns `|now - reference|` of every pixel of a region of two padded frames, in row-major order.
-/// A pixel has changed if this is above the level.
-///
-/// # Panics
-/// Panics if a frame does not have the size of the padded frame of the camera, or has no such
-/// region.
-#[must_use]
-pub fn temporal_differences(
-    camera: &Camera,
-    now: &Frame,
-    reference: &Frame,
-    region: u32,
-) -> Vec<u32> {
-    let area = RegionArea::from_region(camera, region);
-    let pairs = area.pixels(now).zip(area.pixels(reference));
-    pairs.map(|(now, reference)| now.abs_diff(reference).into()).collect()
-}
-
 /// Returns the number of changed pixels of a region: those that differ from its reference by more
 /// than the level, or n if there is no valid reference.
 pub fn changed_pixels(region: &impl RegionView, level: u32) -> u32 {

@@ -2,11 +2,7 @@
 //! The feature `corner`, FAST 5/8: pixels with five contiguous neighbors that are all brighter or
 //! all darker.
 
-use foveate_camera::Camera;
-
-use crate::region::{FrameRegion, RegionView};
 use crate::window::{CENTER, PixelWindow};
-use foveate_pixels::Frame;
 
 /// The positions of the neighbors of the center in a window, clockwise from the upper left.
 const RING: [usize; 8] = [0, 1, 2, 5, 8, 7, 6, 3];
@@ -31,37 +27,4 @@ pub fn corner_strength(window: &PixelWindow) -> Option<u32> {
     });
     let best = arcs.max().expect("there are arcs");
     u32::try_from(best - 1).ok()
-}
-
-/// Returns the strength of every pixel of a region of a denoised padded frame, in row-major order.
-///
-/// # Panics
-/// Panics if the frame does not have the size of the padded frame of the camera, or has no such
-/// region.
-#[must_use]
-pub fn corner_strengths(camera: &Camera, denoised: &Frame, region: u32) -> Vec<Option<u32>> {
-    FrameRegion::new(camera, denoised, region)
-        .windows()
-        .map(|window| corner_strength(&window))
-        .collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn five_in_a_row_are_needed_and_the_weakest_counts() {
-        // The arc over the top has the upper row, the right pixel, and the lower right or the left
-        // pixel.
-        assert_eq!(corner_strength(&[9, 9, 9, 0, 2, 9, 0, 0, 9]), Some(6));
-        assert_eq!(corner_strength(&[9, 9, 9, 0, 2, 9, 0, 0, 5]), Some(2));
-        assert_eq!(corner_strength(&[9, 9, 9, 2, 2, 9, 2, 2, 2]), None);
-        // The arc goes around the end of the ring.
-        assert_eq!(corner_strength(&[9, 9, 2, 9, 2, 2, 9, 9, 2]), Some(6));
-        // The arc is darker than the center.
-        assert_eq!(corner_strength(&[1, 1, 1, 5, 4, 1, 5, 5, 1]), Some(2));
-        assert_eq!(corner_strength(&[7; 9]), None);
-        assert_eq!(corner_strength(&[65535, 65535, 65535, 0, 0, 65535, 0, 0, 65535]), Some(65534));
-    }
 }

@@ -18,8 +18,6 @@ use crate::conversions::count_true;
 use crate::window::PixelWindow;
 use foveate_pixels::Frame;
 
-pub use corner::corner_strengths;
-pub use edge::edge_magnitudes;
 use flow::flow_match;
 use mean::region_mean;
 use range::PixelExtremes;

@@ -28,19 +28,3 @@ impl PixelExtremes {
         self.largest.saturating_sub(self.smallest).into()
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_range_is_the_largest_difference_of_two_pixels() {
-        let range = |pixels: &[u16]| {
-            pixels.iter().fold(PixelExtremes::default(), |seen, &pixel| seen.with(pixel)).range()
-        };
-        assert_eq!(range(&[]), 0);
-        assert_eq!(range(&[7]), 0);
-        assert_eq!(range(&[7, 3, 9, 4]), 6);
-        assert_eq!(range(&[u16::MAX, 0]), u64::from(u16::MAX));
-    }
-}

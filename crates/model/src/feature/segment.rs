@@ -57,29 +57,3 @@ pub fn sides_of_mean(
     let mean = region_mean(region, fraction_bits);
     region.pixels().map(move |pixel| side_of_mean(pixel, mean, level, fraction_bits))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_pixel_must_lie_farther_away_than_the_level() {
-        let sides = |pixels: [u16; 4], mean, f| pixels.map(|x| side_of_mean(x, mean, 2, f));
-        let [less, equal, greater] = [Ordering::Less, Ordering::Equal, Ordering::Greater];
-        assert_eq!(sides([7, 8, 12, 13], 10, 0), [less, equal, equal, greater]);
-        // The mean is 10.5.
-        assert_eq!(sides([8, 9, 12, 13], 21, 1), [less, equal, equal, greater]);
-        // The level is larger than the mean.
-        assert_eq!(sides([0, 1, 3, 4], 1, 0), [equal, equal, equal, greater]);
-        assert_eq!(side_of_mean(u16::MAX, 0, u32::from(u16::MAX), 12), equal);
-    }
-
-    #[test]
-    fn the_smaller_part_counts() {
-        let counts = [Ordering::Greater, Ordering::Less, Ordering::Equal, Ordering::Less];
-        let counts = counts.into_iter().fold(SegmentCounts::default(), SegmentCounts::with);
-        assert_eq!(counts, SegmentCounts { above: 1, below: 2 });
-        assert_eq!(counts.score(), 1);
-        assert_eq!(SegmentCounts::default().score(), 0);
-    }
-}

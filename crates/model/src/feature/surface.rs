@@ -56,23 +56,3 @@ pub fn displacement_sums(region: &impl RegionView) -> DisplacementSums {
     let differences = region.windows().map(|window| window_differences(&window));
     differences.fold(DisplacementSums::default(), DisplacementSums::with)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn each_displacement_has_its_own_sum_and_the_smallest_counts() {
-        let sums = |windows: &[PixelWindow]| {
-            let differences = windows.iter().map(window_differences);
-            let sums = differences.fold(DisplacementSums::default(), DisplacementSums::with);
-            let DisplacementSums { right, below, below_right, below_left } = sums;
-            ([right, below, below_right, below_left], sums.score())
-        };
-        let window = [99, 99, 99, 99, 10, 13, 5, 30, 11];
-        assert_eq!(sums(&[window]), ([3, 20, 1, 5], 1));
-        let corner = [0, 0, 0, 0, 0, 0, 0, 0, u16::MAX];
-        assert_eq!(sums(&[window, corner]), ([3, 20, 65536, 5], 3));
-        assert_eq!(sums(&[[7; 9]]).1, 0);
-    }
-}

@@ -3,17 +3,14 @@
 //! right clock.
 
 use foveate_design::{Design, PipelinedTiming};
-use foveate_model::{
-    PipelinedRpu, RpuInput, ThresholdInputs,
-    denoising::denoise,
-    feature::{corner_strengths, edge_magnitudes},
-    pad, region_border, region_stream, temporal_differences,
-};
+use foveate_model::{PipelinedRpu, RpuInput, ThresholdInputs, region_border, region_stream};
 use foveate_pixels::Frame;
 use proptest::prelude::*;
 
 use crate::frames::{SeededRandom, arbitrary_scripts, make_clip};
-use crate::oracle::{OracleOutcome, deviations, oracle_history, region_values, smaller_part};
+use crate::oracle::{
+    OracleOutcome, OracleRegion, action, oracle_region, outcome_without_regions, score_of_terms,
+};
 use crate::parameters::{DesignParameters, arbitrary_parameters};
 use crate::schedule::{tail_delay, tail_steps};
 
@@ -40,77 +37,56 @@ fn jittered_thresholds(design: &Design, random: &mut SeededRandom) -> ThresholdI
     thresholds
 }
 
-/// The expected scores and decisions of a clip whose thresholds change at every clock.
-struct ThresholdHistory<'a> {
-    recipe: &'a DesignParameters,
-    design: Design,
-    denoised: Vec<Frame>,
-    history: Vec<OracleOutcome>,
-    steps: Vec<Vec<usize>>,
-    applied: Vec<ThresholdInputs>,
+/// Returns the results of the oracle for the only region of the next frame. The tail steps of the
+/// frame and of the one behind it have these clocks, and every pixel is compared with the levels
+/// that are applied at its own clock.
+fn measured_region(
+    recipe: &DesignParameters,
+    history: &[OracleOutcome],
+    frame: &OracleOutcome,
+    (own_steps, later_steps): (&[usize], &[usize]),
+    applied: &[ThresholdInputs],
+) -> OracleRegion {
+    let with = |recipe: &DesignParameters| oracle_region(recipe, (history, history), frame, 0);
+    let mut region = with(recipe);
+    for (position, (&own, &later)) in own_steps.iter().zip(later_steps).enumerate() {
+        let mut recipe = recipe.clone();
+        let window = own - tail_delay(&recipe);
+        recipe.temporal_level = applied[own].temporal_level.into();
+        for (index, feature) in recipe.features.iter_mut().enumerate() {
+            let clock = if feature.name == "segment" { later } else { window };
+            feature.level = applied[clock].level[index].into();
+        }
+        let at_position = with(&recipe);
+        region.temporal_hits[position] = at_position.temporal_hits[position];
+        for (terms, at_position) in region.terms.iter_mut().zip(at_position.terms) {
+            terms[position] = at_position[position];
+        }
+    }
+    region.temporal_count = region.temporal_hits.iter().filter(|&&hit| hit).count() as i64;
+    for (index, feature) in recipe.features.iter().enumerate() {
+        if feature.has_level() {
+            region.scores[index] = score_of_terms(feature.name, &region.terms[index]);
+        }
+    }
+    region
 }
 
-/// SRS and active of a finished frame, as the registers took them.
-type RegisteredDecision = (bool, bool);
-
-impl ThresholdHistory<'_> {
-    fn scores(&self, frame: usize) -> Vec<u64> {
-        let hits = |index: usize, hit: &dyn Fn(usize, u32) -> bool| {
-            let level = |step: usize| self.applied[step - tail_delay(self.recipe)].level[index];
-            let steps = self.steps[frame].iter().enumerate();
-            steps.filter(|&(place, &step)| hit(place, level(step))).count() as u64
-        };
-        let score = |(index, name): (usize, &str)| match name {
-            "edge" => {
-                let magnitudes = edge_magnitudes(&self.design, &self.denoised[frame], 0);
-                hits(index, &|place, level| magnitudes[place] > level)
-            }
-            "corner" => {
-                let strengths = corner_strengths(&self.design, &self.denoised[frame], 0);
-                hits(index, &|place, level| strengths[place].is_some_and(|s| level <= s))
-            }
-            "segment" => self.segment_score(frame, index),
-            _ => self.history[frame].regions[0].scores[index] as u64,
-        };
-        self.recipe.features.iter().map(|feature| feature.name).enumerate().map(score).collect()
-    }
-
-    /// Returns the score of `segment`: a pixel is compared at its step of the second pass.
-    fn segment_score(&self, frame: usize, index: usize) -> u64 {
-        let feature = &self.recipe.features[index];
-        let deviations = deviations(self.recipe, feature, &self.history[frame].denoised, 0);
-        let side = |(deviation, &step): (i64, &usize)| {
-            let level = i64::from(self.applied[step].level[index]) << feature.fraction_bits;
-            deviation.signum() * i64::from(deviation.abs() > level)
-        };
-        let sides: Vec<_> = deviations.into_iter().zip(&self.steps[frame + 1]).map(side).collect();
-        smaller_part(&sides) as u64
-    }
-
-    fn temporal_count(&self, frame: usize, registered: &[RegisteredDecision]) -> u32 {
-        let reference = if self.recipe.last_sent {
-            let decisive = |&at: &usize| {
-                let (srs, active) = registered[at];
-                active || self.recipe.drops_irrelevant_pixels() && !srs
-            };
-            (0..frame).rev().find(decisive).filter(|&at| registered[at].1)
-        } else {
-            frame.checked_sub(1)
-        };
-        let Some(reference) = reference else { return self.design.region_pixels() };
-        let (current, referenced) = (&self.denoised[frame], &self.denoised[reference]);
-        let differences = temporal_differences(&self.design, current, referenced, 0);
-        let level = |step: &usize| self.applied[*step].temporal_level;
-        let pairs = differences.iter().zip(&self.steps[frame]);
-        pairs.map(|(&difference, step)| u32::from(difference > level(step))).sum()
-    }
-
-    fn decide(&self, scores: &[u64], count: u32, clock: usize) -> (bool, bool) {
-        let thresholds = &self.applied[clock];
-        let mut votes = scores.iter().zip(thresholds.min_score).map(|(&score, min)| score >= min);
-        let srs = if self.recipe.all_must_vote { votes.all(|v| v) } else { votes.any(|v| v) };
-        (srs, count >= thresholds.temporal_min_count)
-    }
+/// Sets the decision of the region with the minima and the level of summaries of one clock.
+fn decide(
+    recipe: &DesignParameters,
+    history: &[OracleOutcome],
+    region: &mut OracleRegion,
+    thresholds: &ThresholdInputs,
+) {
+    let minima = thresholds.min_score.map(|minimum| minimum as i64);
+    let mut votes = region.scores.iter().zip(minima).map(|(&score, minimum)| score >= minimum);
+    region.srs = if recipe.all_must_vote { votes.all(|v| v) } else { votes.any(|v| v) };
+    region.trs = region.temporal_count >= thresholds.temporal_min_count.into();
+    region.active = region.srs && region.trs;
+    let mut recipe = recipe.clone();
+    recipe.periphery.iter_mut().for_each(|own| own.level = thresholds.summary_level.into());
+    region.action = action(&recipe, history, 0, (region.srs, region.trs), &region.means);
 }
 
 fn check(recipe: &DesignParameters, clip: &[Frame], seed: u64) -> Result<(), TestCaseError> {
@@ -136,20 +112,15 @@ fn check(recipe: &DesignParameters, clip: &[Frame], seed: u64) -> Result<(), Tes
             as usize
             + 3
     ]);
-    let frames = ThresholdHistory {
-        recipe,
-        denoised: clip.iter().map(|f| denoise(&design, &pad(&design, f).unwrap())).collect(),
-        history: oracle_history(recipe, clip),
-        steps: tail_steps(recipe, &stream),
-        applied: inputs.iter().map(|_| jittered_thresholds(&design, &mut random)).collect(),
-        design: design.clone(),
-    };
+    let steps = tail_steps(recipe, &stream);
+    let applied: Vec<ThresholdInputs> =
+        inputs.iter().map(|_| jittered_thresholds(&design, &mut random)).collect();
 
     let mut rpu = PipelinedRpu::new(design.as_pipelined().unwrap());
     let border = region_border(&design, 0);
     let mut decisions = Vec::new();
     let mut sent_values = Vec::new();
-    for (pixel, thresholds) in inputs.iter().zip(&frames.applied) {
+    for (pixel, thresholds) in inputs.iter().zip(&applied) {
         let (valid, pixel) = (pixel.is_some(), pixel.unwrap_or_default());
         let output = rpu.step(&RpuInput { reset: false, valid, pixel, border }, thresholds);
         decisions.extend(output.decision_valid.then_some(output));
@@ -157,44 +128,32 @@ fn check(recipe: &DesignParameters, clip: &[Frame], seed: u64) -> Result<(), Tes
     }
 
     let wait = usize::from(recipe.has_second_pass());
-    let mut registered = Vec::new();
+    let mut history: Vec<OracleOutcome> = Vec::new();
     let mut leaving = Vec::new();
-    let mut shown: Option<Vec<i64>> = None;
-    let decided = clip.len() - wait.min(clip.len());
-    prop_assert_eq!(decisions.len(), decided);
+    prop_assert_eq!(decisions.len(), clip.len().saturating_sub(wait));
     for (frame, decision) in decisions.iter().enumerate() {
-        let done = *frames.steps[frame + wait].last().unwrap();
-        let (scores, count) = (frames.scores(frame), frames.temporal_count(frame, &registered));
+        let mut outcome = outcome_without_regions(recipe, &clip[frame]);
+        let clocks = (&steps[frame][..], &steps[frame + wait][..]);
+        let mut region = measured_region(recipe, &history, &outcome, clocks, &applied);
+        let scores: Vec<_> = region.scores.iter().map(|&score| score as u64).collect();
         prop_assert_eq!(&decision.scores[..scores.len()], &scores[..]);
-        prop_assert_eq!(decision.temporal_count, count);
+        prop_assert_eq!(i64::from(decision.temporal_count), region.temporal_count);
         // The outputs show the decision with the thresholds of the edge before, and the registers
         // take it with those of the edge that ends the clock.
-        prop_assert_eq!((decision.srs, decision.trs), frames.decide(&scores, count, done));
-        let (srs, trs) = frames.decide(&scores, count, done + 1);
-        registered.push((srs, srs && trs));
-        let means = &frames.history[frame].regions[0].means;
-        let is_due = |srs: bool, clock: usize| {
-            let level = i64::from(frames.applied[clock].summary_level);
-            let is_near = |shown: &Vec<i64>| {
-                shown.iter().zip(means).all(|(shown, mean)| (shown - mean).abs() <= level)
-            };
-            recipe.periphery.is_some() && !srs && !shown.as_ref().is_some_and(is_near)
-        };
-        prop_assert_eq!(decision.summary, is_due(decision.srs, done));
-        if is_due(srs, done + 1) {
-            shown = Some(means.clone());
-            if frame + wait + 1 < clip.len() {
-                leaving.extend(means);
+        let done = *steps[frame + wait].last().unwrap();
+        decide(recipe, &history, &mut region, &applied[done]);
+        prop_assert_eq!((decision.srs, decision.trs), (region.srs, region.trs));
+        prop_assert_eq!(decision.summary, region.action == "summarize");
+        decide(recipe, &history, &mut region, &applied[done + 1]);
+        if frame + wait + 1 < clip.len() {
+            match region.action {
+                "forward" => leaving.extend(&region.payload),
+                "summarize" => leaving.extend(&region.means),
+                _ => {}
             }
-        } else if srs && trs {
-            shown = None;
         }
-        if srs && trs && frame + wait + 1 < clip.len() {
-            let frame_outcome = &frames.history[frame];
-            let payload =
-                if recipe.raw_payload { &frame_outcome.padded } else { &frame_outcome.denoised };
-            leaving.extend(region_values(recipe, payload, 0));
-        }
+        outcome.regions.push(region);
+        history.push(outcome);
     }
     prop_assert_eq!(sent_values, leaving);
     Ok(())

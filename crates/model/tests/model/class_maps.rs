@@ -3,26 +3,9 @@
 //! which every answer is computed anew. It shares no code with the memory of the models.
 
 use foveate_model::ClassMapInputs;
-use foveate_pixels::Frame;
 
 use crate::frames::SeededRandom;
-use crate::oracle::{OracleOutcome, add_to_history};
 use crate::parameters::DesignParameters;
-
-/// A frame of a design with zones, and the thresholds of all classes in this frame.
-#[derive(Clone, Debug)]
-pub(crate) struct ZonedFrame {
-    pub(crate) recipe: DesignParameters,
-    pub(crate) frame: Frame,
-}
-
-impl ZonedFrame {
-    /// Adds the results of the frame to the history of the frames before it.
-    pub(crate) fn add_to_history(&self, map: &[u8], history: &mut Vec<OracleOutcome>) {
-        let regions: Vec<_> = map.iter().map(|&code| self.recipe.of_class(code)).collect();
-        add_to_history(history, &regions, &self.frame);
-    }
-}
 
 /// A write that had an effect.
 #[derive(Clone, Copy, Debug)]

@@ -2,12 +2,7 @@
 //! Tests of cases at the ends of ranges, with explicit expected numbers.
 
 use foveate_design::{Design, DesignConfig};
-use foveate_model::{
-    FunctionalCamera, ModelError, PipelinedRcm,
-    denoising::denoise,
-    feature::{corner_strengths, edge_magnitudes},
-    pad, region_border, region_stream, temporal_differences,
-};
+use foveate_model::{FunctionalCamera, ModelError, PipelinedRcm, region_border, region_stream};
 use foveate_pixels::Frame;
 
 use crate::parameters::{DesignParameters, FeatureParameters, PeripheryParameters};
@@ -40,65 +35,6 @@ fn hits_of_ramps_and_peaks_on_below_and_above_the_level() {
     let corners =
         |level: u32| score(&format!("[[spatial]]\nfeature = \"corner\"\nlevel = {level}"), &peak);
     assert_eq!([0, 8, 9, 10].map(corners), [1, 1, 0, 0]);
-}
-
-#[test]
-fn means_that_end_in_one_half_round_up() {
-    let frame = Frame::new(2, 2, 8, vec![1, 1, 0, 0]).unwrap();
-    let mad = |bits: u32| {
-        let feature =
-            format!("[[spatial]]\nfeature = \"mad\"\nmean_fraction_bits = {bits}\nmin_score = 0");
-        score(&format!("[region]\nsize = 2\n[temporal]\nmin_count = 0\n{feature}"), &frame)
-    };
-    assert_eq!([0, 1, 2].map(mad), [2, 4, 8]);
-    let frame = Frame::new(2, 2, 8, vec![2, 1, 0, 3]).unwrap(); // 1.5
-    let toml = "[region]\nsize = 2\n[temporal]\nmin_count = 0\n[[spatial]]\nfeature = \"mad\"";
-    assert_eq!(score(toml, &frame), 4);
-}
-
-#[test]
-fn shared_regions_of_any_size_equal_the_whole_frame() {
-    let frame = Frame::from_fn(30, 30, 8, |x, y| ((x * x * 7 + y * 31 + x * y * 5) % 256) as u16);
-    let frame = frame.unwrap();
-    let maps = |side: u32, neighborhood: &str| {
-        let design = design(&format!(
-            "[frame]\nwidth = 30\nheight = 30\n[region]\nsize = {side}\nneighborhood = \"{neighborhood}\"\n\
-             [temporal]\nmin_count = 0\n[[spatial]]\nfeature = \"edge\"\nmin_score = 0"
-        ));
-        let denoised = denoise(&design, &pad(&design, &frame).unwrap());
-        let mut edges = vec![0; 900];
-        let mut corners = vec![None; 900];
-        for region in 0..design.regions() {
-            let (left, top) = (region % design.columns() * side, region / design.columns() * side);
-            let magnitudes = edge_magnitudes(&design, &denoised, region);
-            let strengths = corner_strengths(&design, &denoised, region);
-            for (i, (magnitude, strength)) in magnitudes.into_iter().zip(strengths).enumerate() {
-                let (x, y) = (left + i as u32 % side, top + i as u32 / side);
-                edges[(y * 30 + x) as usize] = magnitude;
-                corners[(y * 30 + x) as usize] = strength;
-            }
-        }
-        (denoised, edges, corners)
-    };
-    let whole = maps(30, "isolated");
-    for side in [2, 3, 5, 6, 10, 15, 30] {
-        assert_eq!(maps(side, "shared"), whole, "{side}");
-    }
-    assert_ne!(maps(10, "isolated").0, whole.0);
-    assert_ne!(maps(10, "isolated").1, whole.1);
-}
-
-#[test]
-fn per_pixel_helpers_give_the_level_at_which_each_hit_ends() {
-    let design = design("[frame]\nwidth = 8\nheight = 8\n[denoise]\nfilter = \"none\"");
-    let peak = Frame::from_fn(8, 8, 8, |x, y| 50 + 9 * u16::from((x, y) == (4, 4))).unwrap();
-    let flat = Frame::filled(8, 8, 8, 52).unwrap();
-    let strengths = corner_strengths(&design, &peak, 0);
-    assert_eq!((strengths[36], strengths[35], strengths[0]), (Some(8), None, None));
-    let magnitudes = edge_magnitudes(&design, &peak, 0);
-    assert_eq!((magnitudes[36], magnitudes[35], magnitudes[27]), (0, 18, 18));
-    let differences = temporal_differences(&design, &peak, &flat, 0);
-    assert_eq!((differences[36], differences[0], differences.len()), (7, 2, 64));
 }
 
 #[test]
@@ -155,44 +91,48 @@ pub(crate) fn hard_frames(recipe: &DesignParameters) -> Vec<Frame> {
     ]
 }
 
-fn recipe_with_all_features(
+pub(crate) const FILTERS: [&str; 4] = ["none", "median3x3", "switching3x3", "binomial3x3"];
+
+pub(crate) fn feature(name: &'static str, level: i64, min_milli: i64) -> FeatureParameters {
+    FeatureParameters { name, level, min_milli, fraction_bits: 1, radius: 1 }
+}
+
+/// Returns all features for regions of this side, `flow` last.
+pub(crate) fn all_features(side: i64, bits: u32) -> Vec<FeatureParameters> {
+    let max = (1i64 << bits) - 1;
+    vec![
+        feature("variance", 0, 100 * max * max),
+        feature("corner", max / 2, 1000),
+        feature("mad", 0, 250 * max),
+        feature("edge", 2 * max, 1000 * side),
+        feature("range", 0, 600 * max),
+        feature("surface", 0, 150 * max),
+        feature("segment", max / 4, 1000 * (side / 2)),
+        FeatureParameters { radius: (1 + side % 3).min(side - 1), ..feature("flow", 0, 50 * max) },
+    ]
+}
+
+pub(crate) fn recipe_with_all_features(
     side: i64,
     bits: u32,
-    size: (i64, i64),
-    shared: bool,
-    last_sent: bool,
+    (width, height): (i64, i64),
+    (shared, last_sent): (bool, bool),
 ) -> DesignParameters {
     let max = (1i64 << bits) - 1;
-    let feature = |name, level, min_milli| FeatureParameters {
-        name,
-        level,
-        min_milli,
-        fraction_bits: 1,
-        radius: 1,
-    };
     DesignParameters {
-        width: size.0,
-        height: size.1,
+        width,
+        height,
         bits,
         side,
         shared,
-        filter: ["none", "median3x3", "switching3x3", "binomial3x3"]
-            [(side + i64::from(bits)) as usize % 4],
-        features: vec![
-            feature("variance", 0, 100 * max * max),
-            feature("corner", max / 2, 1000),
-            feature("mad", 0, 250 * max),
-            feature("edge", 2 * max, 1000 * side),
-            feature("range", 0, 600 * max),
-            feature("surface", 0, 200 * max),
-            feature("segment", max / 4, 1000 * side),
-        ],
+        filter: FILTERS[(side + i64::from(bits)) as usize % 4],
+        features: all_features(side, bits),
         all_must_vote: false,
         temporal_level: max / 2,
         temporal_min: side * side / 2,
         last_sent,
         blank_irrelevant: bits.is_multiple_of(4),
-        periphery: PeripheryParameters::from_number((side + size.0) as usize, side, max),
+        periphery: PeripheryParameters::from_number((side + width) as usize, side, max),
         raw_payload: side % 2 == 1,
         constant: false,
         deep: false,
@@ -201,27 +141,24 @@ fn recipe_with_all_features(
     }
 }
 
-/// Adds `flow` with the largest radius.
-fn with_flow(recipe: &DesignParameters) -> DesignParameters {
+/// Checks the pipelined organization, which has all features except `flow`.
+fn check_pipelined(recipe: &DesignParameters, frames: &[Frame]) {
     let mut recipe = recipe.clone();
-    let min_milli = 100 * recipe.pixel_max();
-    let radius = 3.min(recipe.side - 1);
-    let name = "flow";
-    recipe.features.push(FeatureParameters { name, level: 0, min_milli, fraction_bits: 0, radius });
-    recipe
+    recipe.features.pop();
+    let mut rcm = PipelinedRcm::new(recipe.design().as_pipelined().unwrap());
+    pipelined_properties::check_dense(&recipe, &mut rcm, frames);
 }
 
 #[test]
-pub(crate) fn hard_frames_at_the_ends_of_every_range() {
+fn hard_frames_at_the_ends_of_every_range() {
     for side in [2, 3, 5, 7] {
         for bits in [1, 10, 12, 16] {
-            for (shared, last_sent) in [(false, true), (true, false), (true, true)] {
+            for kind in [(false, true), (true, false), (true, true)] {
                 for size in [(1, 1), (side, side + 1), (2 * side, side - 1)] {
-                    let recipe = recipe_with_all_features(side, bits, size, shared, last_sent);
+                    let recipe = recipe_with_all_features(side, bits, size, kind);
                     let frames = hard_frames(&recipe);
-                    functional_properties::check(&with_flow(&recipe), &frames);
-                    let mut rcm = PipelinedRcm::new(recipe.design().as_pipelined().unwrap());
-                    pipelined_properties::check_dense(&recipe, &mut rcm, &frames);
+                    functional_properties::check(&recipe, &frames);
+                    check_pipelined(&recipe, &frames);
                 }
             }
         }
@@ -231,11 +168,9 @@ pub(crate) fn hard_frames_at_the_ends_of_every_range() {
 #[test]
 fn the_largest_region() {
     for shared in [false, true] {
-        let recipe = recipe_with_all_features(64, 16, (65, 40), shared, shared);
-        let frames = hard_frames(&recipe);
-        functional_properties::check(&with_flow(&recipe), &frames[1..]);
-        let recipe = recipe_with_all_features(64, 16, (64, 64), shared, shared);
-        let mut rcm = PipelinedRcm::new(recipe.design().as_pipelined().unwrap());
-        pipelined_properties::check_dense(&recipe, &mut rcm, &hard_frames(&recipe)[2..5]);
+        let recipe = recipe_with_all_features(64, 16, (65, 40), (shared, shared));
+        functional_properties::check(&recipe, &hard_frames(&recipe)[1..]);
+        let recipe = recipe_with_all_features(64, 16, (64, 64), (shared, shared));
+        check_pipelined(&recipe, &hard_frames(&recipe)[2..5]);
     }
 }

@@ -12,7 +12,6 @@
 
 mod changing_thresholds;
 mod class_maps;
-mod floating_point;
 mod frames;
 mod functional_properties;
 mod hard_cases;
@@ -22,7 +21,6 @@ mod pipelined_properties;
 mod port_thresholds;
 mod raster;
 mod schedule;
-mod screen;
 mod serial;
 mod sync;
 mod temporal_behavior;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The contract in its simplest form. The oracle computes whole frames without any state, and looks
-//! up every earlier value in the complete history. It shares only the type of frames with the
-//! library.
+//! up every earlier value in the complete history. It shares only types with the library.
 
+use foveate_model::CycleModel;
 use foveate_pixels::Frame;
 
 use crate::parameters::{DesignParameters, FeatureParameters};
@@ -10,6 +10,7 @@ use crate::parameters::{DesignParameters, FeatureParameters};
 pub(crate) type OracleFrame = Vec<Vec<i64>>;
 
 /// The results of the oracle for one frame. Regions are numbered row by row.
+#[derive(Clone, Debug, Default)]
 pub(crate) struct OracleOutcome {
     pub(crate) padded: OracleFrame,
     pub(crate) denoised: OracleFrame,
@@ -17,6 +18,7 @@ pub(crate) struct OracleOutcome {
     pub(crate) rendered: OracleFrame,
 }
 
+#[derive(Clone, Debug, Default)]
 pub(crate) struct OracleRegion {
     /// Hits, deviations from the mean for `mad`, or sides of the mean for `segment`, by feature and
     /// pixel. A side is 1 above, -1 below, and otherwise 0.
@@ -40,22 +42,7 @@ pub(crate) struct OracleRegion {
 
 /// Returns the results for every frame of a clip.
 pub(crate) fn oracle_history(recipe: &DesignParameters, clip: &[Frame]) -> Vec<OracleOutcome> {
-    oracle_history_with_thresholds(&vec![recipe.clone(); clip.len()], clip)
-}
-
-/// Returns the results for every frame of a clip, with the thresholds of each frame.
-pub(crate) fn oracle_history_with_thresholds(
-    recipes: &[DesignParameters],
-    clip: &[Frame],
-) -> Vec<OracleOutcome> {
-    let all_regions = |recipe: &DesignParameters| -> Vec<DesignParameters> {
-        (0..recipe.columns() * recipe.rows()).map(|_| recipe.clone()).collect()
-    };
-    let mut history: Vec<OracleOutcome> = Vec::new();
-    for (recipe, frame) in recipes.iter().zip(clip) {
-        add_to_history(&mut history, &all_regions(recipe), frame);
-    }
-    history
+    oracle_history_with_maps(recipe, &vec![Vec::new(); clip.len()], clip)
 }
 
 /// Returns the results for every frame of a clip. A map has the codes of the classes of all regions
@@ -67,26 +54,45 @@ pub(crate) fn oracle_history_with_maps(
 ) -> Vec<OracleOutcome> {
     let mut history: Vec<OracleOutcome> = Vec::new();
     for (map, frame) in maps.iter().zip(clip) {
-        let regions: Vec<_> = map.iter().map(|&code| recipe.of_class(code)).collect();
-        add_to_history(&mut history, &regions, frame);
+        add_to_history(&mut history, recipe, map, frame);
     }
     history
 }
 
-/// Adds the results of the next frame, with the thresholds of each region.
+/// Adds the results of the next frame. Regions that the map lacks are `normal`.
 pub(crate) fn add_to_history(
     history: &mut Vec<OracleOutcome>,
-    regions: &[DesignParameters],
+    recipe: &DesignParameters,
+    map: &[u8],
     frame: &Frame,
 ) {
-    let mut outcome = outcome_without_regions(&regions[0], frame);
-    for (region, recipe) in (0..).zip(regions) {
-        let own = oracle_region(recipe, (&history[..], &history[..]), &outcome, region);
+    let mut outcome = outcome_without_regions(recipe, frame);
+    for region in 0..recipe.columns() * recipe.rows() {
+        let own = recipe.of_class(map.get(region as usize).copied().unwrap_or(0));
+        let own = oracle_region(&own, (&history[..], &history[..]), &outcome, region);
         outcome.regions.push(own);
     }
     history.push(outcome);
-    let rendered = render(&regions[0], history);
+    let rendered = render(recipe, history);
     history.last_mut().unwrap().rendered = rendered;
+}
+
+/// Checks that a model knows the references and the summaries that the next frame is compared with.
+pub(crate) fn check_memory(
+    recipe: &DesignParameters,
+    history: &[OracleOutcome],
+    model: &dyn CycleModel,
+) -> Result<(), String> {
+    let values = |pixels: &[u16]| pixels.iter().map(|&pixel| pixel.into()).collect::<Vec<i64>>();
+    for region in 0..recipe.columns() * recipe.rows() {
+        let known = [model.reference(region as u32), model.summary(region as u32)];
+        let due =
+            [reference(recipe, history, region), shown_means(history, region).map(<[i64]>::to_vec)];
+        if known.map(|pixels| pixels.map(values)) != due {
+            return Err(format!("region {region} keeps {known:?}, due is {due:?}"));
+        }
+    }
+    Ok(())
 }
 
 /// Makes the results of a frame, without its regions.
@@ -102,7 +108,7 @@ pub(crate) fn outcome_without_regions(recipe: &DesignParameters, frame: &Frame) 
             }
         }
     }
-    OracleOutcome { padded, denoised, regions: Vec::new(), rendered: Vec::new() }
+    OracleOutcome { padded, denoised, ..OracleOutcome::default() }
 }
 
 fn filtered(recipe: &DesignParameters, image: &OracleFrame, place: (i64, i64)) -> i64 {
@@ -154,11 +160,7 @@ fn positions(recipe: &DesignParameters, region: i64) -> Vec<(i64, i64)> {
         .collect()
 }
 
-pub(crate) fn region_values(
-    recipe: &DesignParameters,
-    image: &OracleFrame,
-    region: i64,
-) -> Vec<i64> {
+fn region_values(recipe: &DesignParameters, image: &OracleFrame, region: i64) -> Vec<i64> {
     positions(recipe, region).iter().map(|&(x, y)| image[y as usize][x as usize]).collect()
 }
 
@@ -171,27 +173,24 @@ pub(crate) fn oracle_region(
     region: i64,
 ) -> OracleRegion {
     let denoised = &frame.denoised;
-    let payload = if recipe.raw_payload { &frame.padded } else { denoised };
     let pixels = region_values(recipe, denoised, region);
     let terms: Vec<Vec<i64>> =
         recipe.features.iter().map(|f| terms(recipe, f, denoised, region)).collect();
-    let referenced = reference(recipe, kept, region)
-        .map(|frame| region_values(recipe, &kept[frame].denoised, region));
+    let referenced = reference(recipe, kept, region);
     let mut displacement = (0, 0);
     let mut scores = Vec::new();
     let mut votes = Vec::new();
     for (feature, terms) in recipe.features.iter().zip(&terms) {
         let score: i64 = match feature.name {
             "variance" => scaled_variance(&pixels),
-            "range" => largest_difference(&pixels),
+            "range" => pixels.iter().max().unwrap() - pixels.iter().min().unwrap(),
             "surface" => smallest_change(recipe, denoised, region),
-            "segment" => smaller_part(terms),
             "flow" => {
                 let (found, score) = flow(recipe, feature.radius, &pixels, referenced.as_deref());
                 displacement = found;
                 score
             }
-            _ => terms.iter().sum(),
+            name => score_of_terms(name, terms),
         };
         let unit: i128 = match feature.name {
             "mad" => i128::from(recipe.region_pixels()) << feature.fraction_bits,
@@ -215,18 +214,11 @@ pub(crate) fn oracle_region(
     };
     let temporal_count = temporal_hits.iter().filter(|&&hit| hit).count() as i64;
     let trs = temporal_count >= recipe.temporal_min;
+    let payload = if recipe.raw_payload { &frame.padded } else { denoised };
     let payload = region_values(recipe, payload, region);
     let active = srs && trs;
     let means = means(recipe, &payload);
-    let action = match recipe.periphery {
-        _ if active => "forward",
-        Some(periphery) if !srs => match shown_means(history, region) {
-            Some(last) if are_near(last, &means, periphery.level) => "hold",
-            _ => "summarize",
-        },
-        None if !srs && recipe.blank_irrelevant => "blank",
-        _ => "hold",
-    };
+    let action = action(recipe, history, region, (srs, trs), &means);
     let lost = false;
     OracleRegion {
         terms,
@@ -241,6 +233,28 @@ pub(crate) fn oracle_region(
         active,
         lost,
         action,
+    }
+}
+
+/// Returns the action on a region of the frame after `history`, with these SRS, TRS and means.
+pub(crate) fn action(
+    recipe: &DesignParameters,
+    history: &[OracleOutcome],
+    region: i64,
+    (srs, trs): (bool, bool),
+    means: &[i64],
+) -> &'static str {
+    let is_near = |last: &[i64], level: i64| {
+        last.iter().zip(means).all(|(last, mean)| (last - mean).abs() <= level)
+    };
+    match recipe.periphery {
+        _ if srs && trs => "forward",
+        Some(periphery) if !srs => match shown_means(history, region) {
+            Some(last) if is_near(last, periphery.level) => "hold",
+            _ => "summarize",
+        },
+        None if !srs && recipe.blank_irrelevant => "blank",
+        _ => "hold",
     }
 }
 
@@ -271,10 +285,6 @@ fn shown_means(history: &[OracleOutcome], region: i64) -> Option<&[i64]> {
     let last = regions.into_iter().find(|region| matches!(region.action, "forward" | "summarize"));
     last.filter(|region| region.action == "summarize" && !region.lost)
         .map(|region| &region.means[..])
-}
-
-fn are_near(last: &[i64], current: &[i64], level: i64) -> bool {
-    last.iter().zip(current).all(|(last, current)| (last - current).abs() <= level)
 }
 
 fn terms(
@@ -323,7 +333,7 @@ fn terms(
 }
 
 /// Returns the deviations from the rounded mean, in units of `2^-f` grey levels.
-pub(crate) fn deviations(
+fn deviations(
     recipe: &DesignParameters,
     feature: &FeatureParameters,
     denoised: &OracleFrame,
@@ -336,9 +346,14 @@ pub(crate) fn deviations(
     pixels.iter().map(|pixel| pixel * scale - mean).collect()
 }
 
+/// Returns the score of a feature that is computed from terms of pixels.
+pub(crate) fn score_of_terms(name: &str, terms: &[i64]) -> i64 {
+    if name == "segment" { smaller_part(terms) } else { terms.iter().sum() }
+}
+
 /// Returns the smaller one of the numbers of terms 1 and -1: half of what is left of all of them
 /// after the difference of both numbers.
-pub(crate) fn smaller_part(sides: &[i64]) -> i64 {
+fn smaller_part(sides: &[i64]) -> i64 {
     let all: i64 = sides.iter().map(|side| side.abs()).sum();
     let difference = sides.iter().sum::<i64>().abs();
     (all - difference) / 2
@@ -365,12 +380,6 @@ fn scaled_variance(pixels: &[i64]) -> i64 {
     let squares: i128 = pixels.iter().map(|&pixel| (n * i128::from(pixel) - sum).pow(2)).sum();
     assert_eq!(squares % n, 0);
     (squares / n) as i64
-}
-
-/// Returns the largest difference of two pixels.
-fn largest_difference(pixels: &[i64]) -> i64 {
-    let pairs = pixels.iter().flat_map(|a| pixels.iter().map(move |b| a - b));
-    pairs.max().unwrap()
 }
 
 /// Returns the displacement of a region from its reference, and its score. Errors are brought to a
@@ -404,21 +413,25 @@ fn flow(
     (best, (gain / unit) as i64)
 }
 
-/// Returns the number of the frame that is the reference of this region for the next frame.
-fn reference(recipe: &DesignParameters, history: &[OracleOutcome], region: i64) -> Option<usize> {
-    if !recipe.last_sent {
-        return history.len().checked_sub(1);
-    }
-    for (frame, outcome) in history.iter().enumerate().rev() {
+/// Returns the reference of this region for the next frame, if it is valid.
+fn reference(
+    recipe: &DesignParameters,
+    history: &[OracleOutcome],
+    region: i64,
+) -> Option<Vec<i64>> {
+    let decides = |outcome: &&OracleOutcome| {
         let region = &outcome.regions[region as usize];
-        if region.active {
-            return (!region.lost).then_some(frame);
-        }
-        if recipe.drops_irrelevant_pixels() && !region.srs {
-            return None;
-        }
-    }
-    None
+        region.active || recipe.drops_irrelevant_pixels() && !region.srs
+    };
+    let outcome = if recipe.last_sent {
+        history.iter().rev().find(decides).filter(|outcome| {
+            let region = &outcome.regions[region as usize];
+            region.active && !region.lost
+        })
+    } else {
+        history.last()
+    };
+    outcome.map(|outcome| region_values(recipe, &outcome.denoised, region))
 }
 
 /// Returns the screen after the last frame of the history.

@@ -79,7 +79,7 @@ pub(crate) struct ZoneParameters {
 
 impl FeatureParameters {
     /// Returns true if the feature counts pixels, so that it has a level and a whole minimum.
-    fn has_level(&self) -> bool {
+    pub(crate) fn has_level(&self) -> bool {
         matches!(self.name, "edge" | "corner" | "segment")
     }
 }

@@ -3,7 +3,7 @@
 //! state. Every step is an edge number that follows from other edge numbers by the rules of
 //! `docs/timing.md`.
 
-use crate::oracle::{OracleOutcome, smaller_part};
+use crate::oracle::{OracleOutcome, score_of_terms};
 use crate::parameters::DesignParameters;
 
 /// The expected outputs of the RPU of one region after an edge.
@@ -110,23 +110,19 @@ fn expected_output(
     let running = over;
     let counted =
         steps.get(running).map_or(0, |frame| frame.iter().take_while(|&&at| at <= edge).count());
-    let partial = |terms: &[i64]| terms.iter().take(counted).sum::<i64>();
 
     let mut scores = Vec::new();
     for (index, feature) in recipe.features.iter().enumerate() {
         let last = |count: usize| count.checked_sub(1).map_or(0, |at| frame(at).scores[index]);
         scores.push(match (feature.name, second_pass) {
             ("mad" | "segment", _) if counted == 0 => 0,
-            ("segment", _) => running
-                .checked_sub(1)
-                .map_or(0, |before| smaller_part(&frame(before).terms[index][..counted])),
-            ("mad", _) => {
-                running.checked_sub(1).map_or(0, |before| partial(&frame(before).terms[index]))
-            }
+            ("mad" | "segment", _) => running.checked_sub(1).map_or(0, |before| {
+                score_of_terms(feature.name, &frame(before).terms[index][..counted])
+            }),
             ("variance" | "range" | "surface", false) => last(done),
             (_, true) => last(over),
             (_, false) if counted == 0 => 0,
-            (_, false) => partial(&frame(running).terms[index]),
+            (name, false) => score_of_terms(name, &frame(running).terms[index][..counted]),
         });
     }
     let temporal_count = if second_pass {

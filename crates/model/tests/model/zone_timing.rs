@@ -58,7 +58,7 @@ impl ZonedCore {
     }
 
     /// Plays frames with these first edges and the inputs of the memory at these edges.
-    fn play(&self, frames: &[i64], inputs: &[(i64, MemoryInput)]) -> ZoneTrace {
+    fn play(&self, frames: &[i64], inputs: &[(i64, ClassMapInputs)]) -> ZoneTrace {
         let inputs: BTreeMap<_, _> = inputs.iter().copied().collect();
         let mut model = rcm_model(&self.design);
         let thresholds = PortThresholds::of_camera(&self.design);
@@ -67,12 +67,12 @@ impl ZonedCore {
         let mut trace = ZoneTrace::default();
         let end = frames.iter().map(|&first| self.edge_of_next(first) + 20).max().unwrap();
         for edge in 1..=end {
-            let input = inputs.get(&edge).copied().unwrap_or_default();
+            let map = inputs.get(&edge).copied().unwrap_or_default();
             let valid = frames.iter().any(|&first| (first..first + self.taken).contains(&edge));
-            assert!(!valid || input.reset || model.is_ready(), "edge {edge}");
-            let zones = Some(thresholds.zone_inputs(input.map));
+            assert!(!valid || model.is_ready(), "edge {edge}");
+            let zones = Some(thresholds.zone_inputs(map));
             let idle = CoreInput::idle(&black, &thresholds.own);
-            model.clock(&CoreInput { reset: input.reset, valid, zones, ..idle });
+            model.clock(&CoreInput { valid, zones, ..idle });
             trace.record(edge, &*model);
         }
         trace
@@ -88,33 +88,12 @@ fn design((width, height): (i64, i64), feature: &str, hardware: &str, zones: &st
     DesignConfig::from_toml(&toml).unwrap().validate().unwrap()
 }
 
-/// The inputs of the memory and of `rst_i` at an edge.
-#[derive(Clone, Copy, Default)]
-struct MemoryInput {
-    map: ClassMapInputs,
-    reset: bool,
+fn write(address: u32, word: u32) -> ClassMapInputs {
+    ClassMapInputs { write: true, address, word, commit: false }
 }
 
-impl MemoryInput {
-    const fn write(address: u32, word: u32) -> Self {
-        let map = ClassMapInputs { write: true, address, word, commit: false };
-        Self { map, reset: false }
-    }
-
-    const fn commit() -> Self {
-        let map = ClassMapInputs { write: false, address: 0, word: 0, commit: true };
-        Self { map, reset: false }
-    }
-
-    const fn and_commit(mut self) -> Self {
-        self.map.commit = true;
-        self
-    }
-
-    const fn and_reset(mut self) -> Self {
-        self.reset = true;
-        self
-    }
+fn write_and_commit(address: u32, word: u32) -> ClassMapInputs {
+    ClassMapInputs { commit: true, ..write(address, word) }
 }
 
 /// The outputs of a core with zones.
@@ -153,11 +132,7 @@ impl ZoneTrace {
     }
 }
 
-const WRITE_ALWAYS: MemoryInput = MemoryInput::write(0, ALL_ALWAYS);
-const COMMIT: MemoryInput = MemoryInput::commit();
-const COMMIT_ALWAYS: MemoryInput = WRITE_ALWAYS.and_commit();
-
-/// The map of `COMMIT_ALWAYS` also has the word that is written at the edge of the commit.
+/// The map also has the word that is written at the edge of the commit.
 #[test]
 fn a_frame_uses_the_map_that_is_committed_two_edges_before_it() {
     for core in ZonedCore::both() {
@@ -174,77 +149,10 @@ fn a_frame_uses_the_map_that_is_committed_two_edges_before_it() {
             (second - 2, [false, true], second - 2..=second - 2),
             (second - 1, [false, false], second - 1..=core.last_edge(second)),
         ] {
-            let trace = core.play(&[first, second], &[(commit, COMMIT_ALWAYS)]);
+            let trace = core.play(&[first, second], &[(commit, write_and_commit(0, ALL_ALWAYS))]);
             assert_eq!(trace.pending, pending.collect::<Vec<_>>(), "{commit}");
             assert_eq!(trace.always_frames(&core), frames, "{commit}");
         }
-    }
-}
-
-/// A gap in the pixels of a frame does not make its edges free.
-#[test]
-fn a_frame_occupies_the_gaps_between_its_pixels() {
-    for mut core in ZonedCore::both() {
-        // The frame lacks its last word, and so never ends.
-        core.taken -= 1;
-        let trace = core.play(&[10], &[(11, COMMIT_ALWAYS)]);
-        assert_eq!(trace.pending.len() as i64, core.edge_of_next(10) + 20 - 10);
-        assert_eq!(trace.relevant, Vec::<Vec<u64>>::new());
-    }
-}
-
-#[test]
-fn writes_and_commits_have_no_effect_while_a_commit_is_pending() {
-    for core in ZonedCore::both() {
-        // Edge 6 is free, but before it the commit is pending. The bank for writes stays normal.
-        for (write, expected) in [(6, false), (7, true)] {
-            let trace = core.play(&[10], &[(5, COMMIT_ALWAYS), (write, WRITE_ALWAYS), (8, COMMIT)]);
-            assert_eq!(trace.pending, [5, 8], "{write}");
-            assert_eq!(trace.always_frames(&core), [expected], "{write}");
-        }
-        // A commit at edge 6 would exchange the banks again.
-        let trace = core.play(&[10], &[(5, COMMIT_ALWAYS), (6, COMMIT)]);
-        assert_eq!((&trace.pending[..], trace.always_frames(&core)), (&[5][..], vec![true]));
-        // The same, while a frame is under way.
-        let (last, second) = (core.last_edge(10), core.edge_of_next(10));
-        let normal = MemoryInput::write(0, 0).and_commit();
-        for ignored in [12, last, last + 1] {
-            let inputs = [(11, COMMIT_ALWAYS), (ignored, normal)];
-            let trace = core.play(&[10, second + 5], &inputs);
-            assert_eq!(trace.pending, (11..=last).collect::<Vec<_>>(), "{ignored}");
-            assert_eq!(trace.always_frames(&core), [false, true], "{ignored}");
-        }
-        let inputs = [(11, COMMIT_ALWAYS), (last + 2, normal)];
-        let trace = core.play(&[10, second + 5], &inputs);
-        assert_eq!(trace.always_frames(&core), [false, false]);
-    }
-}
-
-#[test]
-fn a_reset_makes_a_committed_map_effective() {
-    for core in ZonedCore::both() {
-        let reset = MemoryInput::default().and_reset();
-        let trace = core.play(&[10, 21], &[(11, COMMIT_ALWAYS), (20, reset)]);
-        assert_eq!(trace.pending, (11..20).collect::<Vec<_>>());
-        assert_eq!(trace.always_frames(&core), [true]);
-        // The map stays although the frame after the commit is dropped.
-        let trace = core.play(&[10, 21], &[(8, COMMIT_ALWAYS), (20, reset)]);
-        assert_eq!((&trace.pending[..], trace.always_frames(&core)), (&[8][..], vec![true]));
-    }
-}
-
-#[test]
-fn writes_and_commits_have_no_effect_at_a_reset() {
-    for core in ZonedCore::both() {
-        let trace = core.play(&[10], &[(5, COMMIT_ALWAYS.and_reset())]);
-        assert_eq!((&trace.pending[..], trace.always_frames(&core)), (&[][..], vec![false]));
-        // Neither is the word in the bank for writes.
-        let trace = core.play(&[10], &[(5, WRITE_ALWAYS.and_reset()), (7, COMMIT)]);
-        assert_eq!((&trace.pending[..], trace.always_frames(&core)), (&[7][..], vec![false]));
-        // A reset at the edge after a commit ends it, too.
-        let reset = MemoryInput::default().and_reset();
-        let trace = core.play(&[10], &[(8, COMMIT_ALWAYS), (9, reset)]);
-        assert_eq!((&trace.pending[..], trace.always_frames(&core)), (&[8][..], vec![true]));
     }
 }
 
@@ -260,25 +168,14 @@ fn a_commit_exchanges_the_banks() {
         }
         let before = |frame: usize| frames[frame] - 5;
         // Word 1 has region 16 alone. Its other bits have no effect.
-        let last_region = MemoryInput::write(1, ALL_ALWAYS);
         let inputs = [
-            (before(1), last_region.and_commit()),
-            (before(2), MemoryInput::write(0, 3 << 2).and_commit()),
-            (before(3), COMMIT),
-            (before(4), MemoryInput::write(1, 0xffff_fff0)),
-            (before(4) + 1, MemoryInput::write(0, 0xc000_0000)),
-            (before(4) + 2, COMMIT),
+            (before(1), write_and_commit(1, ALL_ALWAYS)),
+            (before(2), write_and_commit(0, 3 << 2)),
+            (before(3), ClassMapInputs { commit: true, ..ClassMapInputs::default() }),
+            (before(4), write(1, 0xffff_fff0)),
+            (before(4) + 1, write_and_commit(0, 0xc000_0000)),
         ];
         let trace = core.play(&frames, &inputs);
         assert_eq!(trace.relevant, [vec![0], vec![0, 16], vec![1], vec![0, 16], vec![15]]);
-    }
-}
-
-/// A core with few regions has one word, and the port of its number has one bit.
-#[test]
-fn a_word_beyond_the_map_has_no_effect() {
-    for core in ZonedCore::both() {
-        let trace = core.play(&[10], &[(5, MemoryInput::write(1, ALL_ALWAYS).and_commit())]);
-        assert_eq!(trace.always_frames(&core), [false]);
     }
 }

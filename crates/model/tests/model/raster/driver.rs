@@ -7,7 +7,7 @@ use foveate_pixels::Frame;
 
 use super::memory::{ExternalMemory, MemoryFaultRates};
 use super::raster_parameters::RasterParameters;
-use crate::class_maps::ClassMapWriter;
+use crate::class_maps::{ClassMapLog, ClassMapWriter};
 use crate::frames::SeededRandom;
 use crate::port_thresholds::PortThresholds;
 
@@ -73,7 +73,7 @@ impl RasterTrace {
 }
 
 pub(crate) struct RasterDriver {
-    recipe: RasterParameters,
+    pub(crate) recipe: RasterParameters,
     pub(crate) rcm: RasterRcm,
     traffic: RasterTraffic,
     memory: ExternalMemory,
@@ -86,6 +86,8 @@ pub(crate) struct RasterDriver {
     decisions: i64,
     /// The writer of maps, if the core has zones.
     writer: Option<ClassMapWriter>,
+    /// The edges of all traces before this one.
+    pub(crate) maps: ClassMapLog,
     /// True between the first and the last word of a frame.
     is_inside: bool,
 }
@@ -106,6 +108,7 @@ impl RasterDriver {
             sink_phase: (0, true),
             decisions: 0,
             writer: recipe.base.zones.as_ref().map(writer),
+            maps: ClassMapLog::new(&recipe.base),
             is_inside: false,
         };
         driver.restart_trace();
@@ -122,23 +125,20 @@ impl RasterDriver {
             let input = CoreInput {
                 reset: true,
                 valid,
-                sof: false,
-                pixels: &word,
-                reference_valid: false,
                 reference_pixels: &word,
                 forward_ready,
-                thresholds: &thresholds.own,
-                border: 0,
                 zones: self.writer.is_some().then(|| thresholds.zone_inputs(map)),
+                ..CoreInput::idle(&word, &thresholds.own)
             };
             self.rcm.step(&input);
         }
         self.memory.clear();
+        self.maps.push_reset();
         self.restart_trace();
     }
 
     /// Starts a new record of inputs and outputs.
-    pub(crate) fn restart_trace(&mut self) {
+    fn restart_trace(&mut self) {
         self.decisions = 0;
         self.is_inside = false;
         let shown = vec![self.rcm.output().clone()];
@@ -174,7 +174,7 @@ impl RasterDriver {
     fn may_change_thresholds(&self, frames: i64) -> bool {
         let regions = self.recipe.base.columns() * self.recipe.base.rows();
         let is_decided = self.decisions == frames * regions;
-        self.rcm.output().ready && (is_decided || !self.recipe.has_second_pass())
+        self.rcm.output().ready && (is_decided || !self.recipe.base.has_second_pass())
     }
 
     fn feed(&mut self, job: &RasterStimulus) {
@@ -206,16 +206,12 @@ impl RasterDriver {
         let map = self.map_inputs();
         let (reference_valid, reference) = self.memory.reference_port(self.rcm.output());
         let input = CoreInput {
-            reset: false,
             valid,
-            sof: false,
-            pixels,
             reference_valid,
             reference_pixels: &reference,
             forward_ready,
-            thresholds: &thresholds.own,
-            border: 0,
             zones: self.writer.is_some().then(|| thresholds.zone_inputs(map)),
+            ..CoreInput::idle(pixels, &thresholds.own)
         };
         let shown = self.rcm.step(&input).clone();
         self.memory.store(&shown);

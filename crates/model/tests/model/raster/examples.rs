@@ -2,6 +2,7 @@
 //! Tests of small frames with every clock computed by hand from `docs/raster.md`. The edge that
 //! takes the first word has number 1.
 
+use std::collections::VecDeque;
 use std::ops::RangeInclusive;
 
 use foveate_design::{Design, DesignConfig, RasterTiming};
@@ -18,36 +19,37 @@ pub(super) fn design(feature: &str, frame: (u32, u32), more: &[&str]) -> Design 
     DesignConfig::from_toml_with(&toml, more).unwrap().validate().unwrap()
 }
 
-/// Returns the outputs after every edge up to `last` while one frame of ones is applied as fast as
-/// it is taken. `sink` returns true for edges at which the sink is ready.
+/// Returns the outputs after every edge up to `last` while frames of ones are applied as fast as
+/// they are taken. `sink` returns true for edges at which the sink is ready. An external memory can
+/// return a word as soon as it is stored.
 pub(super) fn simulate(
     design: &Design,
+    frames: u64,
     last: usize,
     sink: impl Fn(usize) -> bool,
 ) -> Vec<RasterOutput> {
     let mut rcm = RasterRcm::new(design.as_raster().unwrap());
     let ones = vec![1; design.as_raster().unwrap().pixels_per_clock() as usize];
     let thresholds = ThresholdInputs::from_camera(design);
-    let mut left = design.timing().pixels_per_frame();
+    let mut left = frames * design.timing().pixels_per_frame();
+    let mut memory: VecDeque<Vec<u16>> = VecDeque::new();
     let mut outputs = vec![rcm.output().clone()];
     for edge in 1..=last {
-        let (valid, forward_ready) = (left > 0, sink(edge));
+        let valid = left > 0;
         left -= u64::from(valid && rcm.output().ready);
+        let reference = if rcm.output().reference_ready { memory.pop_front() } else { None };
         let input = CoreInput {
-            reset: false,
             valid,
-            sof: false,
-            pixels: &ones,
-            reference_valid: false,
-            reference_pixels: &[],
-            forward_ready,
-            thresholds: &thresholds,
-            border: 0,
-            zones: None,
+            reference_valid: reference.is_some(),
+            reference_pixels: reference.as_ref().unwrap_or(&ones),
+            forward_ready: sink(edge),
+            ..CoreInput::idle(&ones, &thresholds)
         };
-        outputs.push(rcm.step(&input).clone());
+        let shown = rcm.step(&input).clone();
+        memory.extend(shown.store_valid.then(|| shown.store_pixels.clone()));
+        outputs.push(shown);
     }
-    assert_eq!(left, 0, "the frame was taken");
+    assert_eq!(left, 0, "the frames were taken");
     outputs
 }
 
@@ -77,7 +79,7 @@ fn losses(outputs: &[RasterOutput]) -> Vec<usize> {
 #[test]
 fn a_frame_with_one_window() {
     let design = design("edge", (16, 8), &[]);
-    let outputs = simulate(&design, 240, |_| true);
+    let outputs = simulate(&design, 1, 240, |_| true);
     // T0 is 128 and Z is 17.
     assert_eq!(edges(&outputs, |output| !output.ready), edge_list(128..=151));
     let expected = [(76, 0), (80, 1), (84, 2), (88, 3), (140, 4), (144, 5), (148, 6), (152, 7)];
@@ -105,7 +107,7 @@ fn a_frame_with_one_window() {
 fn a_ragged_frame_waits_for_its_pixels_with_last_sent() {
     let more = ["region.size=8", "denoise.filter=median3x3", "hardware.pixels_per_clock=2"];
     let previous = design("variance", (29, 7), &more);
-    let outputs = simulate(&previous, 300, |_| true);
+    let outputs = simulate(&previous, 1, 300, |_| true);
     // `ready_o` is 0 after the last word of each of the first six rows. T0 is 111 and Z is 1 + 16 +
     // 17.
     let closed = [vec![15, 31, 47, 63, 79, 95], edge_list(111..=157)].concat();
@@ -118,7 +120,7 @@ fn a_ragged_frame_waits_for_its_pixels_with_last_sent() {
 
     let more = [&more[..], &["temporal.reference=last-sent"]].concat();
     let last_sent = design("variance", (29, 7), &more);
-    let outputs = simulate(&last_sent, 300, |_| true);
+    let outputs = simulate(&last_sent, 1, 300, |_| true);
     // The last word is on the ports after edge 278 and is taken at 279.
     let closed = [vec![15, 31, 47, 63, 79, 95], edge_list(111..=278)].concat();
     assert_eq!(edges(&outputs, |output| !output.ready), closed);
@@ -134,7 +136,7 @@ fn a_ragged_frame_waits_for_its_pixels_with_last_sent() {
 /// frame follows.
 #[test]
 fn a_sink_that_stalls_loses_two_rows_of_regions() {
-    let outputs = simulate(&design("edge", (16, 16), &[]), 540, |edge| edge >= 400);
+    let outputs = simulate(&design("edge", (16, 16), &[]), 1, 540, |edge| edge >= 400);
     // One region is held when its row becomes stale. The others are lost instead of being held, two
     // edges apart.
     let expected = [149, 150, 152, 154, 213, 214, 216, 218];
@@ -163,43 +165,13 @@ fn a_sink_that_stalls_loses_two_rows_of_regions() {
     assert_eq!(edges(&outputs, |output| output.lost_valid), expected);
 }
 
-/// In the first run the sink takes a word at edge 149, at which region 0 is lost, and then stops,
-/// so word 1 comes to the ports as the last one. In the second run the only word of region 1 that
-/// was fetched is both the first and the last one.
-#[test]
-fn a_region_that_is_lost_in_the_middle_ends_with_the_word_that_was_fetched_last() {
-    let design = design("edge", (16, 16), &[]);
-    let beat = |output: &RasterOutput| {
-        let ends = (output.forward_first, output.forward_last, output.forward_abort);
-        (output.forward_region, output.forward_position, ends)
-    };
-    let outputs = simulate(&design, 540, |edge| edge == 149 || edge >= 400);
-    assert_eq!(
-        [148, 149].map(|edge| beat(&outputs[edge])),
-        [(0, 0, (true, false, false)), (0, 1, (false, true, true))]
-    );
-    assert!((149..400).all(|edge| beat(&outputs[edge]) == (0, 1, (false, true, true))));
-    // No word was fetched at that edge, so the next word comes two edges after the step at 400.
-    assert_eq!(
-        (outputs[400].forward_valid, beat(&outputs[401])),
-        (false, (8, 0, (true, false, false)))
-    );
-
-    // After edge 96 the last word of region 0 is on the ports, and the first word of region 1 has
-    // been fetched.
-    let outputs = simulate(&design, 540, |edge| edge <= 96 || edge >= 400);
-    assert_eq!(beat(&outputs[96]), (0, 15, (false, true, false)));
-    assert_eq!(beat(&outputs[400]), (1, 0, (true, true, true)));
-    assert_eq!(beat(&outputs[401]), (8, 0, (true, false, false)));
-}
-
 /// There is no window. Word i comes to the tail at edge i + 1, S is 2 and D is 6. The first pass
 /// begins at edge 52 + 2 + 8. Four passes of 16 edges take as long as a row of regions takes to
 /// come in.
 #[test]
 fn the_second_pass_decides_one_region_after_the_other() {
     let design = design("mad", (16, 8), &[]);
-    let outputs = simulate(&design, 300, |_| true);
+    let outputs = simulate(&design, 1, 300, |_| true);
     let expected = [(81, 0), (97, 1), (113, 2), (129, 3), (145, 4), (161, 5), (177, 6), (193, 7)];
     assert_eq!(decisions(&outputs), expected);
     assert_eq!(edges(&outputs, |output| !output.ready), edge_list(128..=133));
@@ -226,10 +198,10 @@ fn nothing_is_lost_while_the_sink_stalls_for_less_than_a_row() {
         ("mad", &[BOTH], 89, 5 * 16 - 20 - 17),
     ] {
         let design = design(feature, (16, 64), more);
-        let outputs = simulate(&design, 1300, |_| true);
+        let outputs = simulate(&design, 1, 1300, |_| true);
         assert_eq!(edges(&outputs, |output| output.forward_valid)[0], first, "{feature}");
         for (clocks, lost) in [(stall, false), (stall + 1, true)] {
-            let outputs = simulate(&design, 1300, |edge| edge <= first || edge > first + clocks);
+            let outputs = simulate(&design, 1, 1300, |edge| edge <= first || edge > first + clocks);
             assert_eq!(outputs[1300].lost, lost, "{feature}, {clocks} clocks");
         }
     }
@@ -250,18 +222,8 @@ fn frames_have_numbers() {
             whole.push((before.forward_frame, before.forward_region));
         }
         taken += u32::from(before.ready);
-        let input = CoreInput {
-            reset: false,
-            valid: true,
-            sof: false,
-            pixels: &[1],
-            reference_valid: false,
-            reference_pixels: &[],
-            forward_ready,
-            thresholds: &thresholds,
-            border: 0,
-            zones: None,
-        };
+        let idle = CoreInput::idle(&[1], &thresholds);
+        let input = CoreInput { valid: true, forward_ready, ..idle };
         let output = rcm.step(&input);
         decided += usize::from(output.decision_valid);
         lost.extend(output.lost_valid.then_some((output.lost_frame, output.lost_region)));
@@ -275,34 +237,4 @@ fn frames_have_numbers() {
         let found = whole.next_if_eq(&&expected).or_else(|| lost.next_if_eq(&&expected));
         assert_eq!(found, Some(&expected), "frame {}", region / 4);
     }
-}
-
-#[test]
-fn after_a_reset_nothing_is_shown() {
-    let design = design("edge", (16, 16), &[]);
-    let mut rcm = RasterRcm::new(design.as_raster().unwrap());
-    let fresh = rcm.clone();
-    let thresholds = ThresholdInputs::from_camera(&design);
-    let input = CoreInput {
-        reset: false,
-        valid: true,
-        sof: false,
-        pixels: &[1],
-        reference_valid: false,
-        reference_pixels: &[],
-        forward_ready: false,
-        thresholds: &thresholds,
-        border: 0,
-        zones: None,
-    };
-    // A decision, a word and a loss are on the ports.
-    for _ in 0..152 {
-        rcm.step(&input);
-    }
-    let shown = rcm.output();
-    assert!(shown.decision_valid && shown.forward_valid && shown.lost);
-    rcm.step(&CoreInput { reset: true, ..input });
-    assert_eq!(rcm.output(), fresh.output());
-    let quiet = [!rcm.output().forward_valid, !rcm.output().lost, !rcm.output().decision_valid];
-    assert!(rcm.output().ready && quiet == [true; 3] && !rcm.is_pending());
 }

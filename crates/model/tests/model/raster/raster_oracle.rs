@@ -78,32 +78,22 @@ impl FrameMaps {
 
 impl<'a> RasterOracle<'a> {
     /// Compares the outputs with those that follow from the frames and the inputs. `recipes` has
-    /// the thresholds of each frame.
+    /// the thresholds of each frame. `log` has the edges before those of the trace, and gets those
+    /// of the trace. Returns the results of all frames.
     pub(crate) fn check(
         recipe: &'a RasterParameters,
         recipes: &[RasterParameters],
         clip: &[Frame],
         trace: &'a RasterTrace,
-    ) -> RasterCheckResult {
-        Self::check_with_maps(recipe, recipes, clip, trace, &mut ClassMapLog::new(&recipe.base))
-    }
-
-    /// Compares the outputs like [`Self::check`]. `log` has the edges before those of the trace,
-    /// and gets those of the trace.
-    pub(crate) fn check_with_maps(
-        recipe: &'a RasterParameters,
-        recipes: &[RasterParameters],
-        clip: &[Frame],
-        trace: &'a RasterTrace,
         log: &mut ClassMapLog,
-    ) -> RasterCheckResult {
+    ) -> Result<Vec<OracleOutcome>, String> {
         let mut oracle = Self {
             recipe,
             trace,
             history: Vec::new(),
             maps: FrameMaps { start: log.edge(), log: log.clone(), of_frames: Vec::new() },
             decisions: BTreeMap::new(),
-            readouts: ReadoutHistory::new(recipe.deep, recipe.misread.rest),
+            readouts: ReadoutHistory::new(recipe.deep),
             streams: ExternalStoreStreams::default(),
             row_store_edges: Vec::new(),
             ready: vec![false; trace.shown.len()],
@@ -122,7 +112,7 @@ impl<'a> RasterOracle<'a> {
         oracle.process_until(trace.end(), recipes)?;
         oracle.maps.compare(trace)?;
         *log = oracle.maps.log;
-        Ok(())
+        Ok(oracle.history)
     }
 
     /// Processes a frame before which `ready_o` is 1 from edge `ready` on, and returns that edge of
@@ -206,7 +196,7 @@ impl<'a> RasterOracle<'a> {
 
     /// Returns the edge of the decision of a region whose last word came to the tail at that edge.
     fn decision_edge(&mut self, edge: i64) -> i64 {
-        if !self.recipe.has_second_pass() {
+        if !self.recipe.base.has_second_pass() {
             return edge + self.recipe.decision_latency();
         }
         let first = (edge + self.recipe.pass_latency()).max(self.second_pass_end + 1);
@@ -228,13 +218,12 @@ impl<'a> RasterOracle<'a> {
         self.update_staleness();
         self.readouts.process_edge(edge, self.trace.sink[edge as usize]);
         for reading in self.readouts.regions.iter().filter(|reading| reading.lost == Some(edge)) {
-            let keeps = self.recipe.misread.keeps_reference;
-            self.history[reading.frame].regions[reading.region as usize].lost = !keeps;
+            self.history[reading.frame].regions[reading.region as usize].lost = true;
         }
         let Some(&(frame, region)) = self.decisions.get(&edge) else { return Ok(()) };
         let (before, from) = self.history.split_at(frame);
-        let trusts_memory = !self.recipe.has_external_store() || self.recipe.misread.trusts_memory;
-        let kept = if trusts_memory { before } else { self.streams.history(frame) };
+        let is_external = self.recipe.has_external_store();
+        let kept = if is_external { self.streams.history(frame) } else { before };
         let own = recipes[frame].base.of_class(self.maps.of_frames[frame][region as usize]);
         let outcome = oracle_region(&own, (before, kept), &from[0], region);
         let words = match outcome.action {
@@ -281,19 +270,12 @@ impl<'a> RasterOracle<'a> {
 
     fn compare_loss(&self, edge: i64, got: &RasterOutput) -> RasterCheckResult {
         let expected = self.readouts.lost_at(edge);
-        let due: Vec<_> = expected
-            .iter()
-            .map(|lost| (lost.region, self.frame_number_on_port(lost.frame)))
-            .collect();
+        let due: Vec<_> =
+            expected.iter().map(|lost| (lost.region, frame_number_on_port(lost.frame))).collect();
         let shown = (i64::from(got.lost_region), i64::from(got.lost_frame));
         let shown = if got.lost_valid { vec![shown] } else { Vec::new() };
         let agrees = shown == due;
         agrees.then_some(()).ok_or_else(|| format!("after edge {edge} lost {shown:?}, not {due:?}"))
-    }
-
-    /// Returns the number of a frame as the ports show it.
-    fn frame_number_on_port(&self, frame: usize) -> i64 {
-        (frame as i64 + self.recipe.misread.frame) % 256
     }
 
     fn compare_decision(&self, edge: i64, got: &RasterOutput) -> RasterCheckResult {
@@ -339,24 +321,22 @@ impl<'a> RasterOracle<'a> {
                 expected.payload[position as usize..][..self.recipe.word_pixels as usize].to_vec(),
             )
         };
-        let ends = !self.recipe.misread.drops_aborts;
-        let whole = word + 1 == reading.words;
-        let flags =
-            (word == 0, whole || ends && reading.is_abort(word), reading.is_abort(word) && ends);
+        let aborts = reading.is_abort(word);
+        let flags = (word == 0, word + 1 == reading.words || aborts, aborts);
         let agrees = got.forward_valid
             && (got.forward_first, got.forward_last, got.forward_abort) == flags
             && got.forward_summary == is_mean
-            && i64::from(got.forward_frame) == self.frame_number_on_port(reading.frame)
+            && i64::from(got.forward_frame) == frame_number_on_port(reading.frame)
             && i64::from(got.forward_region) == reading.region
             && i64::from(got.forward_position) == position
-            && pixels.iter().eq(got
-                .forward_pixels
-                .iter()
-                .map(|&pixel| i64::from(pixel))
-                .collect::<Vec<_>>()
-                .iter());
+            && pixels.into_iter().eq(got.forward_pixels.iter().map(|&pixel| i64::from(pixel)));
         agrees
             .then_some(())
             .ok_or_else(|| format!("after edge {edge}: {got:?}, due is word {word} of {reading:?}"))
     }
+}
+
+/// Returns the number of a frame as the ports show it.
+fn frame_number_on_port(frame: usize) -> i64 {
+    frame as i64 % 256
 }

@@ -18,37 +18,6 @@ pub(crate) struct RasterParameters {
     pub(crate) store: FrameStoreKind,
     /// The key `hardware.forward`.
     pub(crate) forward: bool,
-    pub(crate) misread: PlantedMisreading,
-}
-
-/// Planted misreadings of `docs/raster.md` for the control tests. Numbers are added to the right
-/// value; flags change a rule.
-#[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct PlantedMisreading {
-    /// Added to S. D is not changed.
-    pub(crate) stored: i64,
-    /// Added to D.
-    pub(crate) decided: i64,
-    /// Added to the first edge of the second pass.
-    pub(crate) pass: i64,
-    /// Added to the edges between entering and holding, and between two holdings.
-    pub(crate) rest: i64,
-    /// Added to the rows of the buffer, B.
-    pub(crate) rows: i64,
-    /// A lost region keeps its reference and its summary.
-    pub(crate) keeps_reference: bool,
-    /// Added to the edge at which a reference is taken.
-    pub(crate) taken: i64,
-    /// The first frame takes references, too.
-    pub(crate) always_takes: bool,
-    /// References are the stored words, whatever the memory returned.
-    pub(crate) trusts_memory: bool,
-    /// A frame does not wait for pending regions.
-    pub(crate) never_waits: bool,
-    /// A region that is lost in the middle has no last word.
-    pub(crate) drops_aborts: bool,
-    /// Added to the number of a frame.
-    pub(crate) frame: i64,
 }
 
 impl RasterParameters {
@@ -67,10 +36,6 @@ impl RasterParameters {
 
     fn window(&self) -> i64 {
         i64::from(self.base.has_feature_window())
-    }
-
-    pub(crate) fn has_second_pass(&self) -> bool {
-        self.base.has_feature("mad") || self.base.has_feature("segment")
     }
 
     /// Returns the words of a row of the padded frame, L.
@@ -109,14 +74,13 @@ impl RasterParameters {
     /// Returns the clocks from the tail to the store, S.
     pub(crate) fn store_latency(&self) -> i64 {
         let (m, f) = (self.filter(), self.window());
-        self.misread.stored + if self.deep { 4 + 9 * m + 3 * f } else { 2 + 4 * m + f }
+        if self.deep { 4 + 9 * m + 3 * f } else { 2 + 4 * m + f }
     }
 
     /// Returns the clocks from e(a(i)) to the edge that takes the reference of word i from an
     /// external store.
     pub(crate) fn reference_latency(&self) -> i64 {
-        let stored = self.store_latency() - self.misread.stored;
-        self.misread.taken + stored - if self.deep { 2 } else { 1 }
+        self.store_latency() - if self.deep { 2 } else { 1 }
     }
 
     pub(crate) fn has_external_store(&self) -> bool {
@@ -125,8 +89,7 @@ impl RasterParameters {
 
     /// Returns the clocks from the tail to the decision, D.
     pub(crate) fn decision_latency(&self) -> i64 {
-        let stored = self.store_latency() - self.misread.stored;
-        self.misread.decided + stored + if self.deep { 6 } else { 4 } + self.score_latency()
+        self.store_latency() + if self.deep { 6 } else { 4 } + self.score_latency()
     }
 
     /// Returns the clocks from the counts of a region to the last of its other scores.
@@ -143,10 +106,7 @@ impl RasterParameters {
     /// Returns the clocks from e(a(i)) to the first edge of the second pass, if the pass does not
     /// wait.
     pub(crate) fn pass_latency(&self) -> i64 {
-        self.misread.pass
-            + self.store_latency()
-            + if self.deep { 9 } else { 8 }
-            + self.score_latency()
+        self.store_latency() + if self.deep { 9 } else { 8 } + self.score_latency()
     }
 
     /// Returns the clocks from the last edge of the second pass to the decision.
@@ -174,13 +134,13 @@ impl RasterParameters {
     pub(crate) fn buffer_rows(&self) -> i64 {
         let spare = self.row_words() - self.base.side / self.word_pixels;
         let is_short = spare < self.score_latency() + if self.deep { 10 } else { 7 };
-        self.misread.rows + if self.has_second_pass() || is_short { 3 } else { 2 }
+        if self.base.has_second_pass() || is_short { 3 } else { 2 }
     }
 
     pub(crate) fn waits_for_pending(&self) -> bool {
         let is_small = self.base.rows() <= self.buffer_rows();
         let compares = self.base.last_sent || self.base.periphery.is_some();
-        compares && is_small && !self.misread.never_waits
+        compares && is_small
     }
 
     /// Returns true if advance `a` takes a word.
@@ -226,14 +186,7 @@ pub(crate) fn arbitrary_raster_parameters() -> impl Strategy<Value = RasterParam
             // All other designs need the reference `previous`.
             base.last_sent &=
                 forward && matches!(store, FrameStoreKind::Block | FrameStoreKind::Ultra);
-            RasterParameters {
-                base,
-                word_pixels: pixels,
-                deep,
-                store,
-                forward,
-                misread: PlantedMisreading::default(),
-            }
+            RasterParameters { base, word_pixels: pixels, deep, store, forward }
         })
 }
 

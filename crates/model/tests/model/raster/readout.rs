@@ -39,8 +39,6 @@ pub(crate) type ReadoutWord = (usize, i64);
 #[derive(Clone, Debug, Default)]
 pub(crate) struct ReadoutHistory {
     pub(crate) regions: Vec<RegionReadout>,
-    /// Least number of edges from one holding to the next.
-    hold_interval: i64,
     /// Least number of edges from entering the queue to holding.
     queue_latency: i64,
     /// The word on the ports after every edge.
@@ -52,13 +50,9 @@ pub(crate) struct ReadoutHistory {
 }
 
 impl ReadoutHistory {
-    /// Makes an empty history. `wrong` is a planted fault: the clocks that are added to both
-    /// latencies.
-    pub(crate) fn new(deep: bool, wrong: i64) -> Self {
-        let (rest, wait) = (2 + wrong, if deep { 3 } else { 2 } + wrong);
+    pub(crate) fn new(deep: bool) -> Self {
         Self {
-            hold_interval: rest,
-            queue_latency: wait,
+            queue_latency: if deep { 3 } else { 2 },
             shown: vec![None],
             lost_counts: vec![0],
             ..Self::default()
@@ -68,17 +62,15 @@ impl ReadoutHistory {
     /// Appends a region of which `words` words leave. Its decision is on the ports after edge
     /// `decided`.
     pub(crate) fn enqueue(&mut self, frame: usize, region: i64, words: i64, decided: i64) {
-        let (held, fetched) = (None, Vec::new());
-        let (stale, lost) = (i64::MAX, None);
         self.regions.push(RegionReadout {
             frame,
             region,
             words,
             decided,
-            stale,
-            held,
-            fetched,
-            lost,
+            stale: i64::MAX,
+            held: None,
+            fetched: Vec::new(),
+            lost: None,
         });
     }
 
@@ -112,7 +104,7 @@ impl ReadoutHistory {
     fn hold_next(&mut self, edge: i64) {
         // A region that is lost instead of being held counts as held for the rule of two edges.
         let starts = self.regions.iter().filter_map(|reading| reading.held);
-        let has_rested = starts.max().is_none_or(|last| edge - last >= self.hold_interval);
+        let has_rested = starts.max().is_none_or(|last| edge - last >= 2);
         let next = self.regions.iter_mut().find(|reading| reading.held.is_none());
         let Some(reading) =
             next.filter(|reading| has_rested && edge >= reading.decided + 1 + self.queue_latency)

@@ -32,7 +32,7 @@ impl ExternalStoreStreams {
         denoised: &OracleFrame,
         tail: impl Fn(i64) -> Option<i64>,
     ) {
-        let is_first = self.reference_histories.is_empty() && !recipe.misread.always_takes;
+        let is_first = self.reference_histories.is_empty();
         let mut given = denoised.clone();
         for word in 0..recipe.words() {
             let Some(edge) = tail(word) else { break };
@@ -56,17 +56,8 @@ impl ExternalStoreStreams {
                 given[y][x] = pixel.into();
             }
         }
-        let outcome_with = |denoised| OracleOutcome {
-            padded: Vec::new(),
-            denoised,
-            regions: Vec::new(),
-            rendered: Vec::new(),
-        };
-        self.reference_histories.push(if is_first {
-            Vec::new()
-        } else {
-            vec![outcome_with(given)]
-        });
+        let outcome = OracleOutcome { denoised: given, ..OracleOutcome::default() };
+        self.reference_histories.push(if is_first { Vec::new() } else { vec![outcome] });
     }
 
     /// Returns the history that a frame is compared with.

@@ -6,9 +6,10 @@ use foveate_pixels::Frame;
 
 use super::expected_outputs::{ExpectedTimeline, MeaningfulOutputs, RegionResults, region_results};
 use super::serial_parameters::SerialParameters;
-use crate::class_maps::{ClassMapLog, ClassMapWriter, ZonedFrame};
+use crate::class_maps::{ClassMapLog, ClassMapWriter};
 use crate::frames::SeededRandom;
-use crate::oracle::OracleOutcome;
+use crate::oracle::{OracleOutcome, add_to_history, check_memory};
+use crate::parameters::DesignParameters;
 use crate::port_thresholds::PortThresholds;
 
 /// The pattern in which pixels come.
@@ -30,13 +31,29 @@ impl SerialTraffic {
         Self { gaps: 0, max_pause: 0, pushing: 0, skips: false, seed: 0 };
 }
 
-/// The pixels of a frame in the order of the ports, and the expected results.
+/// The pixels of a frame in the order of the ports, and the source of the expected results.
 pub(crate) struct SerialStimulus {
     pub(crate) pixels: Vec<Vec<u16>>,
     pub(crate) thresholds: PortThresholds,
-    pub(crate) facts: Vec<RegionResults>,
-    /// The frame of a design with zones, whose results follow from its map and not from `facts`.
-    pub(crate) zoned: Option<ZonedFrame>,
+    pub(crate) expected: ResultSource,
+}
+
+impl SerialStimulus {
+    /// Makes the stimulus of a frame with the thresholds of a recipe.
+    pub(crate) fn new(recipe: &SerialParameters, own: DesignParameters, frame: &Frame) -> Self {
+        Self {
+            pixels: port_pixels(recipe, frame),
+            thresholds: PortThresholds::applied(&own),
+            expected: ResultSource::Oracle(Box::new(own), frame.clone()),
+        }
+    }
+}
+
+/// The source of the expected results of a frame.
+pub(crate) enum ResultSource {
+    /// The oracle, for this frame with these thresholds.
+    Oracle(Box<DesignParameters>, Frame),
+    Given(Vec<RegionResults>),
 }
 
 /// The result of a check: a description of the first difference, if there is one.
@@ -56,19 +73,16 @@ pub(crate) struct SerialBench {
     maps: ClassMapLog,
     /// The writer of maps, if the array has zones.
     writer: Option<ClassMapWriter>,
-    /// The results of the frames with zones since the last reset.
+    /// The results of the oracle since the last reset.
     history: Vec<OracleOutcome>,
-    /// The number of clocks by which all expectations are late. It is 0 unless a test wants an
-    /// error.
-    pub(crate) late: i64,
 }
 
 impl SerialBench {
-    pub(crate) fn new(recipe: &SerialParameters, rcm: SerialRcm, traffic: SerialTraffic) -> Self {
+    pub(crate) fn new(recipe: &SerialParameters, traffic: SerialTraffic) -> Self {
         let clocks = recipe.frame_pixels() + recipe.steps_per_frame();
         let writer = |_| ClassMapWriter::new(&recipe.base, clocks, traffic.seed);
         Self {
-            rcm,
+            rcm: SerialRcm::new(recipe.design().as_serial().unwrap()),
             maps: ClassMapLog::new(&recipe.base),
             writer: recipe.base.zones.as_ref().map(writer),
             history: Vec::new(),
@@ -78,7 +92,6 @@ impl SerialBench {
             edge: 0,
             last_edge: i64::MAX,
             noise: PortThresholds::of_camera(&recipe.design()),
-            late: 0,
             recipe: recipe.clone(),
         }
     }
@@ -92,7 +105,8 @@ impl SerialBench {
         self.edge >= self.last_edge
     }
 
-    /// Feeds the frames, each until all of its outputs have come.
+    /// Feeds the frames, each until the array is ready again. It must then know the references and
+    /// summaries for the next frame.
     pub(crate) fn run(&mut self, jobs: &[SerialStimulus]) -> SerialCheckResult {
         for job in jobs {
             let pause = self.random.below(self.traffic.max_pause + 1);
@@ -100,6 +114,9 @@ impl SerialBench {
             self.idle(pause, &self.noise.clone())?;
             self.feed(job)?;
             self.wait(&job.thresholds)?;
+            if !self.is_over() && !self.history.is_empty() {
+                check_memory(&self.recipe.base, &self.history, &self.rcm)?;
+            }
         }
         self.idle(3, &self.noise.clone())
     }
@@ -114,8 +131,8 @@ impl SerialBench {
                 return Ok(());
             }
             let last = pixel + 1 == job.pixels.len();
-            let facts = last.then(|| self.frame_results(job));
-            self.timeline.take(&self.recipe, self.edge + 1, pixel as i64, facts.as_deref());
+            let results = last.then(|| self.frame_results(job));
+            self.timeline.take(&self.recipe, self.edge + 1, pixel as i64, results.as_deref());
             self.step(false, true, pixels, &job.thresholds)?;
         }
         Ok(())
@@ -123,10 +140,14 @@ impl SerialBench {
 
     /// Returns the results of a frame whose last pixel is taken at the next edge.
     fn frame_results(&mut self, job: &SerialStimulus) -> Vec<RegionResults> {
-        let Some(zoned) = &job.zoned else { return job.facts.clone() };
-        let map = self.maps.map_of_frame(*self.timeline.occupied.start());
-        zoned.add_to_history(&map, &mut self.history);
-        region_results(self.history.last().unwrap())
+        match &job.expected {
+            ResultSource::Given(results) => results.clone(),
+            ResultSource::Oracle(recipe, frame) => {
+                let map = self.maps.map_of_frame(*self.timeline.occupied.start());
+                add_to_history(&mut self.history, recipe, &map, frame);
+                region_results(self.history.last().unwrap())
+            }
+        }
     }
 
     /// Waits until the array is ready again.
@@ -209,7 +230,7 @@ impl SerialBench {
             return Err(format!("zone_pending_o is {} after edge {edge}", output.zone_pending));
         }
         let (shown, expected) =
-            (MeaningfulOutputs::from_output(output), self.timeline.outputs_after(edge - self.late));
+            (MeaningfulOutputs::from_output(output), self.timeline.outputs_after(edge));
         if shown != expected {
             return Err(format!("after edge {edge}: {shown:?}, due is {expected:?}"));
         }
@@ -232,7 +253,7 @@ impl SerialBench {
 
 /// Returns the pixels of a frame in the order of the ports. A lane with an empty slot gets the
 /// pixels of another region.
-pub(crate) fn port_pixels(recipe: &SerialParameters, frame: &Frame) -> Vec<Vec<u16>> {
+fn port_pixels(recipe: &SerialParameters, frame: &Frame) -> Vec<Vec<u16>> {
     let design = recipe.design();
     let padded = pad(&design, frame).unwrap();
     if recipe.raster {

@@ -213,24 +213,6 @@ fn the_last_pixels_of_a_deep_array_leave_while_the_next_frame_enters() {
     assert_eq!(expected[15].0, ready + 2);
 }
 
-#[test]
-fn a_reset_takes_no_pixel_and_makes_ready() {
-    let design = design("[frame]\nwidth = 8\nheight = 8\n[hardware]\norganization = \"serial\"\n");
-    let thresholds = ThresholdInputs::from_camera(&design);
-    let mut rcm = SerialRcm::new(design.as_serial().unwrap());
-    let mut step = |reset, valid| {
-        let input = CoreInput { reset, valid, ..CoreInput::idle(&[9], &thresholds) };
-        rcm.step(&input).ready
-    };
-    assert!((0..63).all(|_| step(false, true)));
-    assert!(step(false, false) && step(true, true));
-    assert!((0..63).all(|_| step(false, true)), "the first pixel of a frame again");
-    assert!(!step(false, true));
-    assert!(!step(false, true) && step(true, true));
-    assert!((0..63).all(|_| step(false, true)), "what was under way is forgotten");
-    assert!(!step(false, true));
-}
-
 /// The core of one RPU with three slots is a row of three regions, whose borders are those of the
 /// frame.
 #[test]
@@ -247,39 +229,6 @@ fn one_lane_is_a_row_of_its_slots() {
         outputs.len() as u64 - 1,
         design.as_serial().unwrap().single_lane_design().timing().clocks_per_frame()
     );
-}
-
-/// While the array reports quiet clocks, a step changes none of its outputs, and skipping the step
-/// has the same result.
-#[test]
-fn quiet_clocks_are_quiet_and_can_be_skipped() {
-    for fold in [1, 3] {
-        let hardware = format!("hardware = {{ organization = 'serial', fold = {fold} }}");
-        let design =
-            design(&format!("frame = {{ width = 12, height = 4 }}\nregion.size = 4\n{hardware}\n"));
-        let mut rcm = SerialRcm::new(design.as_serial().unwrap());
-        let pixels = vec![1; rcm.output().forward_valid.len()];
-        let thresholds = ThresholdInputs::from_camera(&design);
-        while rcm.output().ready {
-            rcm.step(&CoreInput { valid: true, ..CoreInput::idle(&pixels, &thresholds) });
-        }
-        let mut skipped = 0;
-        while !rcm.output().ready {
-            let (quiet, before) = (rcm.quiet_clocks(), rcm.output().clone());
-            let mut other = rcm.clone();
-            for _ in 0..quiet {
-                other.skip(1);
-                assert_eq!(other.output(), &before);
-            }
-            if quiet > 0 {
-                rcm.skip(quiet);
-            }
-            assert_eq!(rcm, other);
-            skipped += quiet;
-            rcm.skip(1);
-        }
-        assert!(skipped > 1000, "{skipped}");
-    }
 }
 
 /// The array shows the decisions and pixels of every slot at the clocks of `Departure`.

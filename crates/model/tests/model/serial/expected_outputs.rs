@@ -8,13 +8,15 @@ use std::ops::RangeInclusive;
 use foveate_model::SerialOutput;
 
 use super::serial_parameters::{ExpectedPhase, SerialParameters};
-use crate::oracle::OracleOutcome;
+use crate::oracle::{OracleOutcome, OracleRegion};
 
 /// The expected results of one region and frame: the temporal count and the scores, the decision,
 /// the pixels that leave if the region is active, and the means that leave if its summary is sent.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct RegionResults {
     pub(crate) scores: Vec<u64>,
+    /// Columns to the right and rows down; 0 without `flow`.
+    pub(crate) displacement: (i64, i64),
     pub(crate) srs: bool,
     pub(crate) trs: bool,
     pub(crate) summary: bool,
@@ -41,11 +43,12 @@ impl RegionResults {
 /// Returns the results of the oracle for every region.
 pub(crate) fn region_results(outcome: &OracleOutcome) -> Vec<RegionResults> {
     let pixels = |values: &[i64]| values.iter().map(|&value| value as u16).collect();
-    let results_of = |region: &crate::oracle::OracleRegion| RegionResults {
+    let results_of = |region: &OracleRegion| RegionResults {
         scores: std::iter::once(&region.temporal_count)
             .chain(&region.scores)
             .map(|&score| score as u64)
             .collect(),
+        displacement: region.displacement,
         srs: region.srs,
         trs: region.trs,
         summary: region.action == "summarize",
@@ -60,6 +63,8 @@ pub(crate) fn region_results(outcome: &OracleOutcome) -> Vec<RegionResults> {
 pub(crate) struct MeaningfulOutputs {
     /// Number, region and value of the score.
     pub(crate) score: Option<(u32, u32, u64)>,
+    /// The ports of the displacement, which are 0 without the score of `flow`.
+    pub(crate) displacement: (u64, u64),
     /// SRS, TRS, active and summary.
     pub(crate) decision: Option<[bool; 4]>,
     /// Port and value of each pixel.
@@ -80,6 +85,7 @@ impl MeaningfulOutputs {
         let place = (output.forward_position, output.forward_slot, output.forward_region);
         Self {
             score: output.score_valid.then_some((output.score_index, output.region, output.score)),
+            displacement: (output.displacement_x, output.displacement_y),
             decision: output.decision_valid.then_some(decision),
             place: (!pixels.is_empty()).then_some(place),
             pixels,
@@ -132,10 +138,18 @@ fn rotation_outputs(
         let results = &results[region as usize];
         let decision = [results.srs, results.trs, results.is_active(), results.summary];
         let score = Some((number as u32, region as u32, results.scores[number]));
+        // The ports have two's complements of as many bits as the radius needs.
+        let displacement = |index: usize| {
+            let feature = &recipe.base.features[index];
+            let mask = if feature.radius > 1 { 7 } else { 3 };
+            let (dx, dy) = if feature.name == "flow" { results.displacement } else { (0, 0) };
+            (dx as u64 & mask, dy as u64 & mask)
+        };
         (
             start + recipe.settling_steps() + lane,
             MeaningfulOutputs {
                 score,
+                displacement: number.checked_sub(1).map_or((0, 0), displacement),
                 decision: last.then_some(decision),
                 ..MeaningfulOutputs::default()
             },

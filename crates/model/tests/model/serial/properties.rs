@@ -2,19 +2,17 @@
 //! Tests of every port after every edge, for every kind of design: with gaps, pauses, pixels that
 //! are not taken, thresholds that change between frames, skipped clocks, and resets at any edge.
 
-use foveate_model::{ClassMapInputs, CoreInput, SerialRcm};
+use foveate_model::{ClassMapInputs, CoreInput};
+use foveate_pixels::Frame;
 use proptest::prelude::*;
 
-use super::bench::{SerialBench, SerialCheckResult, SerialStimulus, SerialTraffic, port_pixels};
-use super::expected_outputs::region_results;
-use super::serial_parameters::{SerialParameters, arbitrary_serial_parameters};
-use crate::class_maps::ZonedFrame;
+use super::bench::{SerialBench, SerialCheckResult, SerialStimulus, SerialTraffic};
+use super::serial_parameters::{
+    SerialParameters, arbitrary_serial_parameters, arbitrary_zoned_serial_parameters,
+};
 use crate::frames::{ClipScript, SeededRandom, arbitrary_scripts, make_clip};
-use crate::oracle::oracle_history_with_thresholds;
-use crate::parameters::DesignParameters;
-use crate::port_thresholds::PortThresholds;
 
-pub(crate) fn arbitrary_traffic() -> impl Strategy<Value = SerialTraffic> {
+fn arbitrary_traffic() -> impl Strategy<Value = SerialTraffic> {
     let gaps = prop_oneof![2 => Just(0i64), 1 => 1i64..70];
     let pushing = prop_oneof![Just(0i64), Just(50), Just(100)];
     (gaps, 0i64..20, pushing, any::<bool>(), any::<u64>()).prop_map(
@@ -28,55 +26,49 @@ pub(crate) fn arbitrary_traffic() -> impl Strategy<Value = SerialTraffic> {
     )
 }
 
-/// Returns a clip with the thresholds of each frame and the results of the oracle.
-pub(crate) fn stimuli(recipe: &SerialParameters, script: &ClipScript) -> Vec<SerialStimulus> {
-    let clip = make_clip(&recipe.base, script);
-    let recipes: Vec<DesignParameters> =
-        script.iter().map(|&(_, seed)| recipe.base.with_other_thresholds(seed)).collect();
-    let history = oracle_history_with_thresholds(&recipes, &clip);
-    let job = |((frame, outcome), changed): ((&_, &_), &DesignParameters)| SerialStimulus {
-        pixels: port_pixels(recipe, frame),
-        thresholds: PortThresholds::applied(changed),
-        facts: region_results(outcome),
-        zoned: recipe.base.zones.as_ref().map(|_| {
-            let (recipe, frame) = (changed.clone(), (*frame).clone());
-            ZonedFrame { recipe, frame }
-        }),
+/// Returns a clip with the thresholds of each frame.
+fn stimuli(recipe: &SerialParameters, script: &ClipScript) -> Vec<SerialStimulus> {
+    let frames = make_clip(&recipe.base, script);
+    let job = |(frame, &(_, seed)): (&Frame, &(_, u64))| {
+        SerialStimulus::new(recipe, recipe.base.with_other_thresholds(seed), frame)
     };
-    clip.iter().zip(&history).zip(&recipes).map(job).collect()
+    frames.iter().zip(script).map(job).collect()
 }
 
 /// Runs some edges, resets the array, and runs a new clip from its start.
-pub(crate) fn run_with_reset(
-    bench: &mut SerialBench,
-    before: &[SerialStimulus],
-    after: &[SerialStimulus],
-    edges: i64,
-    held: bool,
+fn run_with_reset(
+    recipe: &SerialParameters,
+    (before, after): (&ClipScript, &ClipScript),
+    traffic: SerialTraffic,
+    (edges, held): (i64, bool),
 ) -> SerialCheckResult {
+    let mut bench = SerialBench::new(recipe, traffic);
     bench.stop_after(edges);
-    bench.run(before)?;
+    bench.run(&stimuli(recipe, before))?;
     bench.stop_after(i64::MAX);
     bench.reset(true)?;
     if held {
         bench.reset(false)?;
     }
-    bench.run(after)
+    bench.run(&stimuli(recipe, after))
+}
+
+/// Returns the clocks of a frame that comes without gaps.
+fn frame_clocks(recipe: &SerialParameters) -> i64 {
+    recipe.frame_pixels() + recipe.steps_per_frame() + 1
 }
 
 /// Checks that clocks that are skipped after `cut` leave the same state as clocks that are not.
-pub(crate) fn check_skipping(
+fn check_skipping(
     recipe: &SerialParameters,
     script: &ClipScript,
     cut: u64,
     clocks: u64,
 ) -> Result<(), TestCaseError> {
     let jobs = stimuli(recipe, script);
-    let rcm = SerialRcm::new(recipe.design().as_serial().unwrap());
-    let mut bench =
-        SerialBench::new(recipe, rcm, SerialTraffic { seed: cut, ..SerialTraffic::DENSE });
-    let frame = recipe.frame_pixels() + recipe.steps_per_frame() + 1;
-    bench.stop_after(SeededRandom(cut).below(frame * jobs.len() as i64));
+    let traffic = SerialTraffic { seed: cut, ..SerialTraffic::DENSE };
+    let mut bench = SerialBench::new(recipe, traffic);
+    bench.stop_after(SeededRandom(cut).below(frame_clocks(recipe) * jobs.len() as i64));
     prop_assert_eq!(bench.run(&jobs), Ok(()));
     let (mut stepped, mut skipped) = (bench.rcm.clone(), bench.rcm);
     let (pixels, thresholds) = (vec![0; recipe.port_pixels() as usize], jobs[0].thresholds);
@@ -105,11 +97,12 @@ proptest! {
         script in arbitrary_scripts(4),
         traffic in arbitrary_traffic(),
     ) {
-        let rcm = SerialRcm::new(recipe.design().as_serial().unwrap());
-        let check = SerialBench::new(&recipe, rcm, traffic).run(&stimuli(&recipe, &script));
+        let check = SerialBench::new(&recipe, traffic).run(&stimuli(&recipe, &script));
         prop_assert_eq!(check, Ok(()));
     }
 
+    /// A third of the resets come while pixels are taken, although that is the smaller part of a
+    /// frame.
     #[test]
     fn a_reset_at_any_edge_forgets_everything(
         recipe in arbitrary_serial_parameters(),
@@ -117,19 +110,44 @@ proptest! {
         traffic in arbitrary_traffic(),
         (cut, held) in (any::<u64>(), any::<bool>()),
     ) {
-        let mut bench = SerialBench::new(&recipe, SerialRcm::new(recipe.design().as_serial().unwrap()), traffic);
-        let frame = recipe.frame_pixels() + recipe.steps_per_frame() + 1;
-        // A third of the resets come while pixels are taken, although that is the smaller part of a
-        // frame.
-        let whole = frame * before.len() as i64;
+        let whole = frame_clocks(&recipe) * before.len() as i64;
         let edges = SeededRandom(cut).below(if cut % 3 == 0 { recipe.frame_pixels() } else { whole });
-        let (before, after) = (stimuli(&recipe, &before), stimuli(&recipe, &after));
-        prop_assert_eq!(run_with_reset(&mut bench, &before, &after, edges, held), Ok(()));
+        let check = run_with_reset(&recipe, (&before, &after), traffic, (edges, held));
+        prop_assert_eq!(check, Ok(()));
     }
 
     #[test]
     fn skipping_is_stepping(
         recipe in arbitrary_serial_parameters(),
+        script in arbitrary_scripts(2),
+        cut in any::<u64>(),
+        clocks in prop_oneof![0u64..5, 0u64..100_000],
+    ) {
+        check_skipping(&recipe, &script, cut, clocks)?;
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(crate::cases(400)))]
+
+    /// Maps are written and committed at any edge. The reset comes at any edge of the first clip,
+    /// in half of the cases after it. The maps stay.
+    #[test]
+    fn every_port_after_every_edge_while_maps_are_written(
+        recipe in arbitrary_zoned_serial_parameters(),
+        (before, after) in (arbitrary_scripts(3), arbitrary_scripts(2)),
+        traffic in arbitrary_traffic(),
+        (cut, held) in (any::<u64>(), any::<bool>()),
+    ) {
+        let anywhere = SeededRandom(cut).below(frame_clocks(&recipe) * before.len() as i64);
+        let edges = if cut % 2 == 0 { anywhere } else { i64::MAX };
+        let check = run_with_reset(&recipe, (&before, &after), traffic, (edges, held));
+        prop_assert_eq!(check, Ok(()));
+    }
+
+    #[test]
+    fn skipping_is_stepping_with_zones(
+        recipe in arbitrary_zoned_serial_parameters(),
         script in arbitrary_scripts(2),
         cut in any::<u64>(),
         clocks in prop_oneof![0u64..5, 0u64..100_000],

@@ -2,10 +2,10 @@
 //! Tests of lanes with arbitrary streams, whose halos belong to no frame. The outputs of the serial
 //! array must be those of the pipelined array.
 
-use foveate_model::{CoreInput, PipelinedRcm, SerialRcm, ThresholdInputs};
+use foveate_model::{CoreInput, PipelinedRcm, ThresholdInputs};
 use proptest::prelude::*;
 
-use super::bench::{SerialBench, SerialStimulus, SerialTraffic, by_port};
+use super::bench::{ResultSource, SerialBench, SerialStimulus, SerialTraffic, by_port};
 use super::expected_outputs::RegionResults;
 use super::serial_parameters::{SerialParameters, arbitrary_serial_parameters};
 use crate::frames::SeededRandom;
@@ -57,6 +57,7 @@ fn pipelined_facts(
                     scores: scores.collect(),
                     srs: output.srs,
                     trs: output.trs,
+                    displacement: (0, 0),
                     summary: output.summary,
                     payload: Vec::new(),
                     means: Vec::new(),
@@ -100,11 +101,9 @@ proptest! {
         let job = |(frame, facts): (&Vec<Vec<u16>>, Vec<RegionResults>)| SerialStimulus {
             pixels: by_port(&recipe, frame),
             thresholds: ThresholdInputs::from_camera(&recipe.design()).into(),
-            facts,
-            zoned: None,
+            expected: ResultSource::Given(facts),
         };
         let jobs: Vec<SerialStimulus> = streams.iter().zip(pipelined_facts(&recipe, &streams)).map(job).collect();
-        let rcm = SerialRcm::new(recipe.design().as_serial().unwrap());
-        prop_assert_eq!(SerialBench::new(&recipe, rcm, SerialTraffic::DENSE).run(&jobs), Ok(()));
+        prop_assert_eq!(SerialBench::new(&recipe, SerialTraffic::DENSE).run(&jobs), Ok(()));
     }
 }

@@ -2,8 +2,8 @@
 //! An array of any organization, seen from its ports: the beats that it takes, and the decisions
 //! that it makes.
 
-use foveate_design::{Design, Hardware, PixelFeed};
-use foveate_model::{CoreInput, PipelinedRcm, RasterRcm, SerialRcm, ThresholdInputs};
+use foveate_design::{Design, Hardware, PixelFeed, PortRole};
+use foveate_model::{CoreInput, CycleModel};
 use foveate_pixels::Frame;
 
 /// The decision of an array for a region.
@@ -15,111 +15,54 @@ pub(crate) struct ArrayDecision {
     pub(crate) active: bool,
 }
 
-/// An array of any organization.
-pub(crate) enum AnyArray {
-    Pipelined(Box<PipelinedRcm>),
-    Serial(Box<SerialRcm>),
-    Raster(Box<RasterRcm>),
-}
-
-/// The outputs of the array after an edge.
+/// The outputs of an array after an edge.
 #[derive(Debug, Default)]
 pub(crate) struct ArrayOutputs {
     pub(crate) ready: bool,
     pub(crate) sync_error: bool,
     pub(crate) decided: Vec<ArrayDecision>,
-    /// Number of pixels that leave, for organizations that send them within the frame.
+    /// Number of pixels that leave.
     pub(crate) sent_pixels: usize,
 }
 
-impl AnyArray {
-    pub(crate) fn new(design: &Design) -> Self {
-        match design.hardware() {
-            Hardware::Pipelined(own) => {
-                Self::Pipelined(Box::new(PipelinedRcm::new(design.with_hardware(own))))
-            }
-            Hardware::Serial(own) => {
-                Self::Serial(Box::new(SerialRcm::new(design.with_hardware(own))))
-            }
-            Hardware::Raster(own) => {
-                Self::Raster(Box::new(RasterRcm::new(design.with_hardware(own))))
+impl ArrayOutputs {
+    /// Applies an edge to the array, and returns its outputs after it.
+    pub(crate) fn of_step(model: &mut dyn CycleModel, input: &CoreInput<'_>) -> Self {
+        model.clock(input);
+        let values = |role| {
+            let mut values = Vec::new();
+            model.append_output(role, &mut values);
+            values
+        };
+        let mut decided = Vec::new();
+        if model.is_high(PortRole::DecisionValid) {
+            // Without a port for the region, lane l decides region l.
+            let numbers = values(PortRole::Region);
+            let bits = [PortRole::Srs, PortRole::Trs, PortRole::Active].map(values);
+            for (lane, &srs) in bits[0].iter().enumerate() {
+                decided.push(ArrayDecision {
+                    region: numbers.get(lane).map_or(lane as u32, |&number| number as u32),
+                    srs: srs == 1,
+                    trs: bits[1][lane] == 1,
+                    active: bits[2][lane] == 1,
+                });
             }
         }
-    }
-
-    pub(crate) fn step(
-        &mut self,
-        (reset, valid, sof): (bool, bool, bool),
-        pixels: &[u16],
-        thresholds: &ThresholdInputs,
-    ) -> ArrayOutputs {
-        match self {
-            Self::Pipelined(rcm) => {
-                let input = CoreInput { reset, valid, sof, ..CoreInput::idle(pixels, thresholds) };
-                let outputs = rcm.step(&input).iter().zip(0..);
-                let outputs = outputs.filter(|(output, _)| output.decision_valid);
-                let decided = outputs.map(|(output, region)| ArrayDecision {
-                    region,
-                    srs: output.srs,
-                    trs: output.trs,
-                    active: output.active,
-                });
-                let decided = decided.collect();
-                ArrayOutputs { ready: true, sync_error: rcm.sync_error(), decided, sent_pixels: 0 }
-            }
-            Self::Serial(rcm) => {
-                let shown = rcm.step(&CoreInput {
-                    reset,
-                    valid,
-                    sof,
-                    ..CoreInput::idle(pixels, thresholds)
-                });
-                let decided = shown.decision_valid.then_some(ArrayDecision {
-                    region: shown.region,
-                    srs: shown.srs,
-                    trs: shown.trs,
-                    active: shown.active,
-                });
-                ArrayOutputs {
-                    ready: shown.ready,
-                    sync_error: shown.sync_error,
-                    decided: decided.into_iter().collect(),
-                    sent_pixels: shown.forward_valid.iter().filter(|valid| **valid).count(),
-                }
-            }
-            Self::Raster(rcm) => {
-                let shown = rcm.step(&CoreInput {
-                    reset,
-                    valid,
-                    sof,
-                    pixels,
-                    reference_valid: false,
-                    reference_pixels: &vec![0; pixels.len()],
-                    forward_ready: true,
-                    thresholds,
-                    border: 0,
-                    zones: None,
-                });
-                let decided = shown.decision_valid.then_some(ArrayDecision {
-                    region: shown.region,
-                    srs: shown.srs,
-                    trs: shown.trs,
-                    active: shown.active,
-                });
-                ArrayOutputs {
-                    ready: shown.ready,
-                    sync_error: shown.sync_error,
-                    decided: decided.into_iter().collect(),
-                    sent_pixels: if shown.forward_valid { pixels.len() } else { 0 },
-                }
-            }
+        // A valid bit belongs to a lane, or to all pixels of a word.
+        let words = values(PortRole::ForwardValid);
+        let pixels = values(PortRole::ForwardPixel).len() / words.len().max(1);
+        Self {
+            ready: model.is_ready(),
+            sync_error: model.is_high(PortRole::SyncError),
+            decided,
+            sent_pixels: words.into_iter().filter(|&valid| valid == 1).count() * pixels,
         }
     }
+}
 
-    /// Returns true if the array has `ready_o`. Its pixels then leave within the frame.
-    pub(crate) fn has_ready(&self) -> bool {
-        !matches!(self, Self::Pipelined(_))
-    }
+/// Returns true if the array has `ready_o`. Its pixels then leave within the frame.
+pub(crate) fn has_ready(design: &Design) -> bool {
+    !matches!(design.hardware(), Hardware::Pipelined(_))
 }
 
 /// Returns the number of the beat of pixel (x, y) of a frame, and the position in the beat. Regions

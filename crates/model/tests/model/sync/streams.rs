@@ -3,11 +3,11 @@
 //! takes the frames that `docs/sync.md` defines, with their references, and errors must come after
 //! the edges that it names.
 
-use super::array::{AnyArray, ArrayDecision, beat_shape, frame_from_beats};
+use super::array::{ArrayDecision, ArrayOutputs, beat_shape, frame_from_beats, has_ready};
 use super::sync_oracle::{CutStream, StreamEdge, cut_stream};
 use crate::frames::SeededRandom;
 use foveate_design::{Design, DesignConfig};
-use foveate_model::{FunctionalCamera, ThresholdInputs};
+use foveate_model::{CoreInput, FunctionalCamera, ThresholdInputs, rcm_model};
 
 const BASE: &str = "frame.pixel_bits = 4\ntemporal = { level = 2, min_count = 3 }\nhardware.sync = true\n\
                     region.size = 4\nspatial = [{ feature = 'edge', level = 12, min_score = 6 }]\n";
@@ -106,11 +106,16 @@ fn simulate(
     random: &mut SeededRandom,
     fill: &[u16],
 ) -> PlayedStream {
-    let (mut array, thresholds) = (AnyArray::new(design), ThresholdInputs::from_camera(design));
+    let (mut array, thresholds) = (rcm_model(design), ThresholdInputs::from_camera(design));
     let mut played = PlayedStream { edges: vec![], errors: vec![], decided: vec![], left: 0 };
     let with_gaps = random.below(2) == 0;
     let max = i64::from(design.pixel_max()) + 1;
-    let mut ready = array.step((true, true, true), fill, &thresholds).ready;
+    let mut step = |reset, valid, sof, pixels: &[u16]| {
+        let reference_pixels = &vec![0; pixels.len()][..];
+        let idle = CoreInput { reference_pixels, ..CoreInput::idle(pixels, &thresholds) };
+        ArrayOutputs::of_step(&mut *array, &CoreInput { reset, valid, sof, ..idle })
+    };
+    let mut ready = step(true, true, true, fill).ready;
     assert!(ready);
     let (mut next, mut silence, mut clock) = (0, 0, 0);
     // Pixels change little, so that some regions are held.
@@ -118,7 +123,7 @@ fn simulate(
     while silence < design.timing().clocks_per_frame() + 200 {
         let valid = next < marks.len() && !(with_gaps && random.below(4) == 0);
         let sof = if valid { marks[next] } else { random.below(2) == 0 };
-        let pixels = if ready || !array.has_ready() {
+        let pixels = if ready || !has_ready(design) {
             let places = beats.len();
             let beat = &mut beats[next % places];
             for pixel in beat.iter_mut() {
@@ -134,7 +139,7 @@ fn simulate(
             played.edges.push(StreamEdge { clock, valid, sof, pixels: pixels.clone() });
             next += usize::from(valid);
         }
-        let outputs = array.step((false, valid, sof), &pixels, &thresholds);
+        let outputs = step(false, valid, sof, &pixels);
         played.errors.extend(outputs.sync_error.then_some(clock));
         silence = if next < marks.len() || !outputs.decided.is_empty() || outputs.sent_pixels > 0 {
             0
@@ -160,7 +165,7 @@ fn decisions_of_a_damaged_stream_are_those_of_the_frames_that_the_page_defines()
             let marks = damaged_stream(random, beats, 9);
             let fill = vec![random.below(i64::from(design.pixel_max()) + 1) as u16; width];
             let played = simulate(&design, &marks, random, &fill);
-            let has_ready = AnyArray::new(&design).has_ready();
+            let has_ready = has_ready(&design);
             let found: CutStream = cut_stream(&played.edges, beats, has_ready.then_some(&fill[..]));
             assert_eq!(played.errors, found.errors, "{more:?} {seed}");
             (errors, completed) = (errors + found.errors.len(), completed + found.completed);
