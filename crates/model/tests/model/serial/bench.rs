@@ -70,9 +70,8 @@ pub(crate) struct SerialBench {
     last_edge: i64,
     /// Thresholds that are applied between frames.
     noise: PortThresholds,
-    maps: ClassMapLog,
-    /// The writer of maps, if the array has zones.
-    writer: Option<ClassMapWriter>,
+    /// The log and the writer of maps, if the array has zones.
+    zones: Option<(ClassMapLog, ClassMapWriter)>,
     /// The results of the oracle since the last reset.
     history: Vec<OracleOutcome>,
 }
@@ -80,11 +79,13 @@ pub(crate) struct SerialBench {
 impl SerialBench {
     pub(crate) fn new(recipe: &SerialParameters, traffic: SerialTraffic) -> Self {
         let clocks = recipe.frame_pixels() + recipe.steps_per_frame();
-        let writer = |_| ClassMapWriter::new(&recipe.base, clocks, traffic.seed);
+        let zones = |_| {
+            let writer = ClassMapWriter::new(&recipe.base, clocks, traffic.seed);
+            (ClassMapLog::new(&recipe.base), writer)
+        };
         Self {
             rcm: SerialRcm::new(recipe.design().as_serial().unwrap()),
-            maps: ClassMapLog::new(&recipe.base),
-            writer: recipe.base.zones.as_ref().map(writer),
+            zones: recipe.base.zones.as_ref().map(zones),
             history: Vec::new(),
             timeline: ExpectedTimeline::new(),
             traffic,
@@ -143,7 +144,9 @@ impl SerialBench {
         match &job.expected {
             ResultSource::Given(results) => results.clone(),
             ResultSource::Oracle(recipe, frame) => {
-                let map = self.maps.map_of_frame(*self.timeline.occupied.start());
+                let first = *self.timeline.occupied.start();
+                let map = self.zones.as_ref().map(|(log, _)| log.map_of_frame(first));
+                let map = map.unwrap_or_default();
                 add_to_history(&mut self.history, recipe, &map, frame);
                 region_results(self.history.last().unwrap())
             }
@@ -194,12 +197,12 @@ impl SerialBench {
     ) -> SerialCheckResult {
         self.edge += 1;
         let map = self.map_inputs();
-        if reset {
-            self.maps.push_reset();
-        } else {
-            self.maps.push(map, self.timeline.occupied.contains(&self.edge));
+        let zones = self.zones.as_ref().map(|_| thresholds.zone_inputs(map));
+        match &mut self.zones {
+            Some((log, _)) if reset => log.push_reset(),
+            Some((log, _)) => log.push(map, self.timeline.occupied.contains(&self.edge)),
+            None => {}
         }
-        let zones = self.writer.is_some().then(|| thresholds.zone_inputs(map));
         let idle = CoreInput::idle(pixels, &thresholds.own);
         self.rcm.step(&CoreInput { reset, valid, zones, ..idle });
         self.compare()
@@ -209,12 +212,14 @@ impl SerialBench {
     fn map_inputs(&mut self) -> ClassMapInputs {
         let (first, last) = (*self.timeline.occupied.start(), *self.timeline.occupied.end());
         let is_inside = (first + 2..last - 1).contains(&self.edge);
-        self.writer.as_mut().map(|writer| writer.next(!is_inside)).unwrap_or_default()
+        self.zones.as_mut().map(|(_, writer)| writer.next(!is_inside)).unwrap_or_default()
     }
 
     fn skip(&mut self, clocks: i64) -> SerialCheckResult {
-        for edge in self.edge + 1..=self.edge + clocks {
-            self.maps.push(ClassMapInputs::default(), self.timeline.occupied.contains(&edge));
+        if let Some((log, _)) = &mut self.zones {
+            for edge in self.edge + 1..=self.edge + clocks {
+                log.push(ClassMapInputs::default(), self.timeline.occupied.contains(&edge));
+            }
         }
         self.edge += clocks;
         self.rcm.skip(clocks as u64);
@@ -226,7 +231,8 @@ impl SerialBench {
         if output.ready != self.timeline.is_ready(edge) {
             return Err(format!("ready_o is {} after edge {edge}", output.ready));
         }
-        if output.zone_pending != self.maps.is_pending_after(edge) {
+        let is_pending = self.zones.as_ref().is_some_and(|(log, _)| log.is_pending_after(edge));
+        if output.zone_pending != is_pending {
             return Err(format!("zone_pending_o is {} after edge {edge}", output.zone_pending));
         }
         let (shown, expected) =
