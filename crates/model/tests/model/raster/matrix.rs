@@ -23,7 +23,7 @@ fn check_departure(recipe: &RasterParameters, outcome: &OracleOutcome, trace: &R
     match last(|shown| shown.forward_valid) {
         found if !recipe.forward => assert_eq!(found, None),
         found if outcome.regions.iter().all(|region| region.active) => {
-            assert_eq!(found, Some(left))
+            assert_eq!(found, Some(left));
         }
         found => assert!(found <= Some(left)),
     }
