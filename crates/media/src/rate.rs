@@ -2,7 +2,6 @@
 //! The frame rate, its notation, and the times of frames.
 
 use crate::FootageError;
-use std::io::Read as _;
 
 /// The number of frames per second as a fraction. Frame t of a sequence of images has the time t /
 /// rate.

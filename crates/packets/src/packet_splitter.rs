@@ -14,7 +14,12 @@ const REPORTED_BYTES: u64 = 1 << 20;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum StreamItem {
     /// A packet.
-    Packet { frame: u32, packet: Packet },
+    Packet {
+        /// The number of its frame.
+        frame: u32,
+        /// The packet.
+        packet: Packet,
+    },
     /// Bytes that belong to no packet.
     Skipped {
         /// The offset of the first byte in the stream.

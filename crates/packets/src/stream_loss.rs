@@ -14,7 +14,10 @@ pub enum StreamLoss {
         bytes: u64,
     },
     /// The stream begins in the middle of a run, so the screen before it is unknown.
-    Start { frame: u32 },
+    Start {
+        /// The number of the first frame.
+        frame: u32,
+    },
     /// Frames without any packet.
     Frames {
         /// The number of the first missing frame.
@@ -23,9 +26,13 @@ pub enum StreamLoss {
         count: u32,
     },
     /// The FRAME of a frame is missing, and with it the time: the frame is not written.
-    Frame { frame: u32 },
+    Frame {
+        /// The number of the frame.
+        frame: u32,
+    },
     /// The decisions of a row of regions are missing.
     Row {
+        /// The number of the frame.
         frame: u32,
         /// The row of regions.
         row: u32,
@@ -34,18 +41,21 @@ pub enum StreamLoss {
     },
     /// The scores of a row of regions are missing.
     Scores {
+        /// The number of the frame.
         frame: u32,
         /// The row of regions.
         row: u32,
     },
     /// The displacements of a row of regions are missing.
     Flow {
+        /// The number of the frame.
         frame: u32,
         /// The row of regions.
         row: u32,
     },
     /// The pixels or means of a region are missing.
     Region {
+        /// The number of the frame.
         frame: u32,
         /// The row of regions.
         row: u32,
@@ -55,11 +65,22 @@ pub enum StreamLoss {
         dropped: bool,
     },
     /// The END of a frame is missing.
-    End { frame: u32 },
+    End {
+        /// The number of the frame.
+        frame: u32,
+    },
     /// Packets contradict others or come too late.
-    Misplaced { frame: u32, count: u32 },
+    Misplaced {
+        /// The number of the frame in these packets.
+        frame: u32,
+        /// The number of packets.
+        count: u32,
+    },
     /// The time of a frame is before that of the previous frame, or too far after it.
-    Time { frame: u32 },
+    Time {
+        /// The number of the frame.
+        frame: u32,
+    },
     /// A FRAME comes from another camera or has another format. It is ignored with all packets up
     /// to the next FRAME of this camera.
     Foreign {

@@ -107,6 +107,7 @@ pub enum SinkPattern {
     Rate {
         /// The number of words that it can take in `clocks` clocks.
         words: u32,
+        /// The number of clocks.
         clocks: u32,
     },
     /// It takes no word within these ranges of edges, which are in ascending order.

@@ -5,7 +5,6 @@ use super::server::{HttpAnswer, PageSite, stream_page};
 use crate::view::board::BoardRegisters;
 use crate::view::shared_stream::SharedStream;
 use serde_json::Value;
-use std::io::Write;
 use std::sync::Arc;
 use std::time::Duration;
 

@@ -4,7 +4,6 @@
 //! organization, whose implementation for serial designs ([`OrganizationRules`]) is here, too.
 
 use super::{SerialPhase, SerialTiming};
-use crate::organization::OrganizationRules;
 use crate::{Design, Hardware, OrganizationConfig, SerialDesign};
 use foveate_camera::ConfigError;
 

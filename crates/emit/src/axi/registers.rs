@@ -19,9 +19,15 @@ pub enum FieldKind {
     /// The field reads the value that the core drives.
     Status,
     /// The field holds the value written last, and `reset` before the first write.
-    Control { reset: u32 },
+    Control {
+        /// The value after a reset.
+        reset: u32,
+    },
     /// The field behaves as `Control`, but the core takes a new value over when a frame begins.
-    Threshold { reset: u32 },
+    Threshold {
+        /// The value after a reset.
+        reset: u32,
+    },
     /// The core itself keeps the value, and the field reads what the core drives.
     External {
         /// True if bytes are written one by one, and false if the core takes a value only if all

@@ -19,7 +19,12 @@ pub enum SetFiles {
     /// The images are records in another file, without names of their own.
     Records,
     /// The images are in an IDX file, and the labels in another one.
-    Idx { images: IdxFile, labels: Option<IdxFile> },
+    Idx {
+        /// The file of images.
+        images: IdxFile,
+        /// The file of labels, if there is one.
+        labels: Option<IdxFile>,
+    },
 }
 
 /// An IDX file.

@@ -40,6 +40,7 @@ pub enum ChartData {
     Bars {
         /// The names of the groups.
         groups: Vec<String>,
+        /// The series.
         series: Vec<BarSeries>,
     },
 }
