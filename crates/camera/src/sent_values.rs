@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The effect of a decision: what a region sends, how the screen shows it ([`RegionAction`]),
-//! and when the reference is written ([`ReferenceWriteTime`]). A region and frame take two
-//! bits, the displacement if the camera has `flow`, and values of P bits.
+//! The effect of a decision: what a region sends, and how the screen shows it
+//! ([`RegionAction`]). A region and frame take two bits, the displacement if the camera has `flow`, and values of P bits.
 //!
 //! | bits | the region | values that follow |
 //! | --- | --- | --- |
@@ -12,9 +11,6 @@
 //!
 //! The two bits say what happens to every region, so no addresses are sent. A displacement has
 //! the bits of dx and dy: 4 for a radius of 1, and 6 for a larger one.
-//!
-//! The last part of this module is what a reference demands of the hardware that stores it. A
-//! new reference must be added to every match there.
 
 use crate::{Camera, Periphery};
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The folders with Verilog and benches that run without Foveate: that of a failing run, which
-//! reproduces the mismatch ([`write_replay`]), and that of the core of a design, which also has
-//! a timing diagram ([`write_core`]).
+//! The folder of a failing run, with Verilog and benches that reproduce the mismatch without
+//! Foveate ([`write_replay`]).
 
 use crate::error::CosimError;
 use crate::harness::{bench_file, bench_name, render, replay_bench};

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The module that is on top of a design ([`Top`], or [`AXI_TOP`] for a core on AXI), and what
-//! stands in it beside the array or core: the leaf that finds the frames of a stream again
-//! ([`FrameSync`]), and the memory of classes ([`class_connections`]), in whose place a design
-//! without zones has constants.
+//! The module that is on top of a design ([`Top`], or [`AXI_TOP`] for a core on AXI), and the
+//! leaf beside it that finds the frames of a stream again ([`FrameSync`]).
 
 use super::class_map::has_normal_map;
 use foveate_design::{ArrayStructure, CoreInterface, Design, Hardware, InterfaceKind, Port};

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The measurement of a clip ([`MeasuredClip`]): the frames go once through the ideal camera,
 //! and through the engine of every camera. It also counts the ground-truth objects of which a
-//! camera sends at least half ([`ObjectCounts`]). A [`CameraComparison`] compares one camera
-//! with the ideal one over one clip or data set, without a folder or a Pareto front.
+//! camera sends at least half ([`ObjectCounts`]).
 
 use crate::disturbance::{ClipDisturbance, FrameDisturbance};
 use crate::{Disturbance, ExploreError};

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The points of a space, each with its design ([`DesignPoint`]), and their synthesis
-//! ([`PointSynthesis`]): area and clock on an FPGA, and area, clock and energy in the cells of
-//! a process.
+//! The points of a space, each with its design ([`DesignPoint`]).
 
 use crate::space::{DesignSpace, plain_text};
 use foveate_design::DesignConfig;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The folder of an exploration, in which an interrupted one continues, also on several
-//! machines ([`claim_folder`]). Finished measurements are kept there ([`MeasurementStore`]), so
-//! that a rerun measures only what is missing: there is a file for every clip and camera, and
-//! for every clip and design in front of a link, and its name is a hash of everything that the
-//! figures depend on. What is still to do is reported as progress, stage by stage.
+//! Finished measurements in the folder of an exploration ([`MeasurementStore`]), so that a rerun
+//! measures only what is missing: there is a file for every clip and camera, and for every clip and
+//! design in front of a link, and its name is a hash of everything that the figures depend on.
 
 use crate::ExploreError;
 use crate::link::ArrayLink;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The areas over which errors are counted: the cells into which the lines of two grids of
-//! regions divide a frame ([`GridCells`]), and the sums of such areas and of other errors over
-//! frames ([`ErrorTally`]).
+//! regions divide a frame ([`GridCells`]).
 
 use crate::areas::{DecisionState, StateAreas, state_pair_index};
 use foveate_camera::Camera;

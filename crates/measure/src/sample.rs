@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The numbers of a comparison, in types that are exact and fast. Frames have one pixel type,
-//! the narrowest that holds them, at the depth of the ideal ([`ComparedFrames`]).
-//!
-//! Sums have 40 fraction bits, so that they do not depend on the order of their terms
-//! ([`FixedPoint`]). The quantum is 9.1e-13, and the range 1.5e26, which a day of 16-bit video
-//! does not reach. Sums beyond the range saturate.
+//! The pixels of a comparison. Frames have one pixel type, the narrowest that holds them, at the
+//! depth of the ideal ([`ComparedFrames`]).
 
 use foveate_camera::Camera;
 use foveate_ideal::IdealOutcome;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The times of frames that have none of their own, such as images: those of a file
-//! ([`TimestampsFile`]), or those of a [`FrameRate`].
+//! The times of frames that have none of their own, such as images, from a file
+//! ([`TimestampsFile`]).
 //!
 //! A line of the file has the time of a frame, as a decimal number. The name of the frame's
 //! file may follow or precede it, separated by a comma or by white space. Empty lines and lines

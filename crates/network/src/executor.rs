@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Runs a network frame by frame, and recomputes only what may have changed ([`Executor`]). It
-//! measures its time where there is a clock ([`OptionalInstant`]).
+//! Runs a network frame by frame, and recomputes only what may have changed ([`Executor`]).
 
 use super::optional_instant::OptionalInstant;
 use super::tensor::TensorForm;

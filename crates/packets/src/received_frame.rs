@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A received frame ([`ReceivedFrame`]): its decisions, its regions and its losses. A
-//! [`FrameClock`] gives it a time in microseconds since the first frame; it comes in ticks,
-//! which may be wrong.
+//! A received frame ([`ReceivedFrame`]): its decisions, its regions and its losses.
 
 use super::packet_layout::index;
 use crate::{

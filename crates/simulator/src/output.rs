@@ -5,25 +5,31 @@
 //! recorder feeds all of them. A new kind of output is a new sink and a line in the recorder.
 
 mod activity_chart;
+mod arrays;
 mod arrow;
 mod bandwidth;
 mod canvas;
 mod clock_files;
 mod csv;
 mod data_set;
+mod event_files;
 mod frame_packets;
 mod frame_table;
+mod headed_file;
 mod heatmap;
 mod latency_files;
 mod npz;
 mod options;
 mod overlay;
 mod parquet_file;
+mod parquet_table;
 mod picture_series;
 mod pixel_camera;
 mod pixel_event_files;
 mod png_writers;
+mod raw_image;
 mod recorder;
+mod row_writer;
 mod sink;
 mod summary;
 mod video_file;

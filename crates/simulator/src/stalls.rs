@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Two tables beside a run: the stalls of a sink, which it reads ([`read_stalls`]), and
-//! `losses.csv`, which it writes if something is missing from a stream, with one line for each
-//! missing item ([`LossTable`]).
+//! The table of the stalls of a sink, which a run reads ([`read_stalls`]).
 
 use crate::SimulatorError;
 use csv::{ReaderBuilder, StringRecord};

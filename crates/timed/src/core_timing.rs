@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The clocks of a core of any organization: the numbers from which they follow, which also
-//! make the core ([`CoreTiming`]), and the rows of their table, with the transactions region by
-//! region ([`ClockRow`]).
+//! The numbers from which the clocks of a core of any organization follow, and which also make
+//! the core ([`CoreTiming`]).
 
 use crate::pipelined::PipelinedCore;
 use crate::raster::RasterCore;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The surroundings of a core, by their clocks. Behind it is a [`Sink`] of forwarded words,
-//! which stalls; a [`SinkPattern`] describes it, so that any number of equal sinks can be made.
-//! In front of it is a source, which delivers frames and offers their beats at certain clocks
-//! ([`FrameDelivery`]).
+//! The receiver of a core's forwarded words, which may stall ([`Sink`]). A [`SinkPattern`]
+//! describes it, so that any number of equal sinks can be made.
 
 use super::delivery::NEVER;
 use std::fmt::Debug;

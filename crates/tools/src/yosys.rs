@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Runs a Yosys script over sources from memory ([`run`]), and keeps its log and the files that
 //! it wrote.
-//!
-//! The widths of the ports of a module ([`PortBits`]) are compared here with those that
-//! Verilator and Icarus report. Both simulators drop or pad bits where widths differ.
 
 use crate::cache::Cache;
 use crate::cache_key::CacheKey;

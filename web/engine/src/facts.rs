@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a page is told, so that it has no range of its own: the facts about a camera
-//! ([`camera_facts`]), the description of what it can offer, as presets, scenes, keys with
-//! their values, and features with their defaults ([`page_description`]), and the limits of
-//! everything that grows. The description comes from the tables that the command uses.
+//! ([`camera_facts`]), and the description of what it can offer, as presets, scenes, keys with
+//! their values, and features with their defaults ([`page_description`]), from the tables that the
+//! command uses.
 
 use super::limits::{MAX_CAMERAS, MAX_NETWORK_FILE, MAX_PIXELS, MAX_RECORDING};
 use foveate_camera::toml_text::TomlConfig as _;

@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What pages get as bytes: the frames of an input ([`FramePlayer`]), the frame of a stream
-//! ([`frame_bytes`]), and data within HTML ([`encode`]). A clip waits for the page: a frame is
-//! taken when it is asked for, and none is lost. A camera does not wait: the page gets the
-//! newest frame.
-//!
-//! Data within HTML are in base 85, which takes a sixth less space than base64: five characters
-//! stand for four bytes, and none of them means anything in an element of HTML.
-//! `web/engine_text.js` reads the text.
+//! What pages get as bytes: the frames of an input ([`FramePlayer`]), and the frame of a stream
+//! ([`frame_bytes`]). A clip waits for the page: a frame is taken when it is asked for, and none is
+//! lost. A camera does not wait: the page gets the newest frame.
 
 use foveate_camera::CameraConfig;
 use foveate_design::Design;

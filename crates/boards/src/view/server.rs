@@ -9,7 +9,7 @@
 //!   token are closed first.
 //! * A [`RequestStream`] knows only the part of HTTP/1.1 that a browser needs, with limits in
 //!   bytes, lines and time.
-//! * A [`PageSite`] provides the content; for `foveate view` it is a [`StreamSite`].
+//! * A [`PageSite`] provides the content; for `foveate view` it is a [`StreamSite`](super::site::StreamSite).
 
 use super::timed_stream::TimedStream;
 use crate::view::ViewError;

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The state of a stream that the reader, the board and the browsers share ([`SharedStream`]).
-//! No part waits for another: only the newest frame is kept, so a slow browser misses frames,
-//! and a [`TimedStream`] ends a connection whose peer takes too long. Its deadline is for a
-//! whole sequence of reads and writes, because the timeouts of a socket apply to each of them
-//! alone.
+//! No part waits for another: only the newest frame is kept, so a slow browser misses frames.
 
 use super::frame_player::{design_facts, frame_bytes};
 use crate::view::input::Input;

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The options for the hardware that runs a design: the clock of a core and the sink of its
-//! words ([`ClockArgs`]), and the process in whose cells a design is measured
-//! ([`ProcessArgs`]).
+//! The options for the clock of a core and the sink of its words ([`ClockArgs`]).
 
 use super::check::ClockFrequency;
 use crate::error::CliError;

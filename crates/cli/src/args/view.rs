@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The options of the two commands that show a camera on a page in the browser: `view` for what
-//! a camera sends ([`ViewArgs`]), and `live` for a camera that this machine computes
-//! ([`LiveArgs`]).
+//! The options of `view`, which shows what a camera sends on a page in the browser ([`ViewArgs`]).
 
 use super::{DesignArgs, at_least_one};
 use crate::error::CliError;

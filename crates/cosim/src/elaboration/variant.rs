@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What an elaboration shows of a design: modules with the values of their parameters
-//! ([`ModuleVariant`]), and instances with the connections of their ports ([`ArrayInstance`]).
+//! The modules of an elaborated design with the values of their parameters ([`ModuleVariant`]).
 
 use serde::{Deserialize, Serialize};
 use std::collections::{BTreeMap, BTreeSet};

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The values at input ports while they mean nothing ([`UnusedInputs`]), and the source of all
-//! random values of a stimulus ([`Random`]), which is equal for equal seeds on every machine
-//! and in every version.
+//! The values at input ports while they mean nothing ([`UnusedInputs`]).
 
 use super::random::Random;
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The choice of the fold of a serial design: the folds that are fast enough, and the ones
-//! among them that may be the cheapest. The clocks of a fold come from the rules of the
-//! organization, whose implementation for serial designs ([`OrganizationRules`]) is here, too.
+//! among them that may be the cheapest.
 
 use super::{SerialPhase, SerialTiming};
 use crate::{Design, Hardware, OrganizationConfig, SerialDesign};

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The outside of a core: the ports of one on AXI, and the registers of an array of RPUs on a
-//! board (docs/boards.md). The ports are declared only in the filled template `axi.v`
-//! ([`view`]), so they are read from its header ([`header_ports`]). The registers form a table
-//! like that of a core on AXI ([`array_table`]), from which a module and the files for software
-//! are made.
+//! The outside of a core on AXI. Its ports are declared only in the filled template `axi.v`
+//! ([`view`]), so they are read from its header ([`header_ports`]).
 
 use super::registers::{fingerprint_number, irrelevant_code, raw_flag, thresholds};
 use crate::banner;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The longest path and the leakage of an array in the cells of a library. OpenSTA finds those
-//! of a module ([`time_module`]); those of the array follow from one of its units with the
-//! logic that the units share ([`time_array`]). A [`LookupTable`] is how a library states times
-//! and energies: by the transition time of an input and the load of an output.
+//! of a module ([`time_module`]); those of the array follow from one of its units with the logic
+//! that the units share ([`time_array`]).
 
 use super::error::SiliconError;
 use super::library::{CELLS, LibertyLibrary};

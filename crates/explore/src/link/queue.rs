@@ -3,11 +3,6 @@
 //! it is a buffer that loses nothing: bits leave in the order in which they came, one after the
 //! other. Framing and the length of the link take no time. Without the buffer, the link is the
 //! sink of a raster core ([`link_sink`]).
-//!
-//! Bits come at times that follow from the sensor, which reads the rows of a frame one after
-//! the other, evenly over the time until the next frame begins ([`Timeline`]). The variation of
-//! their rate is seen in windows of one length, one after the other from the first frame on
-//! ([`WindowRates`]).
 
 use crate::link::LinkUnit;
 use foveate_timed::SinkPattern;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The statistics of a clip in studies: the sums over its frames ([`RegionTally`]), and
-//! Spearman's rank correlation of its regions ([`spearman`]).
+//! The sums over the frames of a clip in studies ([`RegionTally`]).
 
 use crate::studies::number::count_votes;
 use crate::studies::runner::FrameResult;

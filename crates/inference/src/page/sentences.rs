@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The page in words: the setup of a run ([`run_sentences`]), its findings ([`findings`]), and
-//! the command line in a form that a shell reads ([`shell_command`]).
+//! The page in words: the setup of a run ([`run_sentences`]) and its findings ([`findings`]).
 
 use super::figures::{
     bytes_text, decibels_text, error_text, large_count_text, mean_bytes_text, millijoules_text,

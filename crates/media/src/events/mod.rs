@@ -6,9 +6,9 @@
 //! in the first bytes. Times are in microseconds. Neither holds more than a packet of a file in
 //! memory.
 //!
-//! [EVT 2.0]: https://docs.prophesee.ai/stable/data/encoding_formats/evt2.html [EVT 3.0]:
-//! https://docs.prophesee.ai/stable/data/encoding_formats/evt3.html [AEDAT4]:
-//! https://docs.inivation.com/software/software-advanced-usage/file-formats/aedat-4.0.html
+//! [EVT 2.0]: https://docs.prophesee.ai/stable/data/encoding_formats/evt2.html
+//! [EVT 3.0]: https://docs.prophesee.ai/stable/data/encoding_formats/evt3.html
+//! [AEDAT4]: https://docs.inivation.com/software/software-advanced-usage/file-formats/aedat-4.0.html
 
 mod aedat4;
 mod encoder;

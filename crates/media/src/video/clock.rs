@@ -1,19 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The times of the frames of a video ([`VideoClock`]), and the late start at one of them
-//! ([`start`]). A container may hold times that go back, as joined recordings do. The clock
-//! then goes on from the time before by the last step.
-//!
-//! A long video is started late without decoding everything before it only where that gives the
-//! same frames with the same times, bit for bit:
-//!
-//! * in MP4 and Matroska, which store the time of every frame. In other containers times are
-//!   counted from the beginning, or guessed;
-//! * where decoding starts with a frame on whose predecessors no later frame depends: any frame
-//!   of an intra-only codec, an IDR picture of H.264, an IRAP picture of H.265. Streams that
-//!   refresh their picture gradually have no such frame.
-//!
-//! All other videos are decoded from the beginning, and the frames before the start are
-//! dropped, which is always right.
+//! The times of the frames of a video ([`VideoClock`]). A container may hold times that go back,
+//! as joined recordings do. The clock then goes on from the time before by the last step.
 
 use crate::FrameRate;
 

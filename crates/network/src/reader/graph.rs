@@ -1,9 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Reading of the graph of a model, node by node ([`read_graph`]).
-//!
-//! Before a file is decoded, the memory of its messages is bounded ([`model_memory`]). An empty
-//! message has two bytes in a file and hundreds in memory, so a small file could ask for all
-//! the memory of a machine.
 
 use super::constant::Constant;
 use super::model_folder::ModelFolder;

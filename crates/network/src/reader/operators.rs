@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The supported ONNX operators, and the function that reads each ([`OPERATORS`]). Transposed
-//! convolution is read here ([`conv`]), with the size of its output as ONNX defines it.
+//! The supported ONNX operators, and the function that reads each ([`OPERATORS`]).
 
 use super::node::{NodeOutput, NodeReader, output_of_tensors};
 use super::transposed_conv::conv;

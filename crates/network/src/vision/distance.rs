@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The outputs of a network for a frame: what is found in them ([`FrameFindings`]), and their
-//! distance from the right values ([`OutputDistance`]).
+//! The distance between the outputs of a network and the right values ([`OutputDistance`]).
 
 /// Sums over values and over the right values, which are those of a reference computation.
 #[derive(Clone, Copy, Debug)]

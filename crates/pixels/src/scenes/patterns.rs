@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The hard cases, each a function of place and time ([`pattern_pixel`]), so any frame can be
-//! made on its own. So are the random numbers of all scenes: they are hashes of (seed, a, b, c)
-//! without a state ([`hash`]).
+//! made on its own.
 
 use super::noise::{hash, pick};
 use crate::scenes::{Scene, SceneParameters};

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The packets of a frame, in the format of `docs/packets.md` and in an order in which a core
-//! can send them: of the frame that an engine computed last, or of a frame whose values were
-//! kept. The file `packets.bin`: the packets of the camera in the format of `docs/packets.md`.
+//! The packets of a frame, in an order in which a core can send them: of the frame that an engine
+//! computed last, or of a frame whose values were kept; and the file `packets.bin` of a run.
 
 use super::PacketContent;
 use super::sink::{FrameSink, SinkFrame};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The file `latency.csv`, with the latency of every frame, and charts of it. Charts of the
-//! latency of frames and of the regions that wait, over a clip of any length.
+//! The file `latency.csv`, with the latency of every frame, and charts of it and of the regions
+//! that wait, over a clip of any length.
 
 use super::csv::CsvFile;
 use crate::SimulatorError;

@@ -6,11 +6,10 @@
 //! tinted and have a thin border, and all others are dark: as on the live page. In the style with
 //! outlines the frame is dimmed, and the colour of a region says which of its two conditions holds. An
 //! arrow shows the displacement of a region, bright if `flow` votes for the region and faint otherwise.
-//! Without scores it is bright if the region is relevant. Classes of regions have marks.
+//! Without scores it is bright if the region is relevant.
 //!
-//! The marks of classes of regions in a picture: regions that are off are hatched, and a line
-//! in the colour of the class surrounds the areas of regions that are keen or always relevant.
-//! The legend below a picture: marks with words, in as many lines as they need.
+//! Regions that are off are hatched, and a line in the colour of the class surrounds the areas of
+//! regions that are keen or always relevant. The legend has as many lines as it needs.
 
 use super::OverlayStyle;
 use super::activity_chart::ActivityChart;
@@ -19,7 +18,7 @@ use super::canvas::{
     BACKGROUND, LINE_DOTS, PictureCanvas, PictureLayout, TEXT, TEXT_DOTS, mix, text_width,
 };
 use super::picture_series::PicturePainter;
-use super::png_writers::to_byte;
+use super::raw_image::to_byte;
 use super::sink::SinkFrame;
 use foveate_camera::{Camera, Displacement, RegionAction, RegionClass};
 use foveate_engine::FrameOutcome;

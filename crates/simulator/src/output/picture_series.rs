@@ -8,7 +8,8 @@ use foveate_tools::Interrupt;
 
 use super::PictureFormat;
 use super::canvas::{PictureCanvas, PictureLayout};
-use super::png_writers::{PngSeries, PngWriters, RawImage};
+use super::png_writers::{PngSeries, PngWriters};
+use super::raw_image::RawImage;
 use super::sink::{FrameSink, SinkFrame};
 use super::video_file::VideoFile;
 use crate::SimulatorError;

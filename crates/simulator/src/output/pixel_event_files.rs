@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The events of a pixel camera as files: NPZ with the fields that tonic uses, CSV, EVT 2.0,
-//! EVT 3.0 and AEDAT4. The files of the table of regions. [`EventTable`] defines the columns,
-//! and a [`RowWriter`] the file format.
+//! EVT 3.0 and AEDAT4.
 
 use super::csv::CsvFile;
-use super::frame_table::{ParquetTable, RowWriter};
 use super::npz::NpzArchive;
-use super::sink::{FrameSink, SinkFrame};
-use super::{EventTableOptions, PixelCamera, PixelEvent, PixelEventOptions, cannot_write};
+use super::sink::SinkFrame;
+use super::{PixelCamera, PixelEvent, PixelEventOptions, cannot_write};
 use crate::SimulatorError;
 use foveate_camera::Camera;
-use foveate_engine::{EventFrame, EventTable};
 use foveate_media::{EventEncoder, EventFileError, EventFormat};
 use foveate_tools::GrowingFile;
 use std::fs::{self, File};
@@ -178,53 +175,5 @@ impl EventArchive {
         }
         self.npz.finish(self.frames + 1)?;
         fs::remove_file(&self.starts_path).map_err(&failed)
-    }
-}
-
-/// One file of the table while it is written.
-struct EventFileSink {
-    table: EventTable,
-    writer: Box<dyn RowWriter>,
-}
-
-/// Returns the sinks of the files that are asked for.
-pub(super) fn event_sinks(
-    folder: &Path,
-    camera: &Camera,
-    tables: EventTableOptions,
-    has_scores: bool,
-) -> Result<Vec<Box<dyn FrameSink>>, SimulatorError> {
-    let table = EventTable::new(camera, tables.only_active);
-    let table = if has_scores { table } else { table.without_scores() };
-    let mut writers: Vec<Box<dyn RowWriter>> = Vec::new();
-    if tables.csv {
-        writers.push(Box::new(CsvFile::create(&folder.join("events.csv"), &table.heading())?));
-    }
-    if tables.parquet {
-        writers.push(Box::new(ParquetTable::create(&folder.join("events.parquet"), &table)?));
-    }
-    let file =
-        |writer| -> Box<dyn FrameSink> { Box::new(EventFileSink { table: table.clone(), writer }) };
-    Ok(writers.into_iter().map(file).collect())
-}
-
-impl FrameSink for EventFileSink {
-    fn push(&mut self, sink_frame: &SinkFrame<'_>) -> Result<(), SimulatorError> {
-        let SinkFrame { camera, number, outcome, .. } = *sink_frame;
-        let frame = EventFrame { camera, number, time_us: sink_frame.source.time_us, outcome };
-        self.writer.rows(&self.table, &frame);
-        Ok(())
-    }
-
-    fn write_out(&mut self) -> Result<(), SimulatorError> {
-        self.writer.write_out()
-    }
-
-    fn expendable_path(&self) -> Option<PathBuf> {
-        self.writer.expendable()
-    }
-
-    fn finish(self: Box<Self>) -> Result<(), SimulatorError> {
-        self.writer.finish()
     }
 }

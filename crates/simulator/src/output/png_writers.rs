@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A pool of threads that write PNG files in parallel, because the compression of a picture
-//! takes longer than all other work for a frame. A picture for which the disk has no space is
-//! kept in memory until the end. PNG files of pictures. Numbered PNG files in a folder of their
-//! own. A picture in memory, before it is written as a PNG or a video frame.
+//! Numbered PNG files in a folder, written by a pool of threads, because the compression of a
+//! picture takes longer than all other work for a frame. A picture for which the disk has no space
+//! is kept in memory until the end.
 
 use super::cannot_write;
-use super::canvas::PictureCanvas;
-use super::sink::SinkFrame;
+use super::raw_image::{RawImage, SampleFormat};
 use crate::SimulatorError;
-use foveate_pixels::{FramePixels, convert_depth, display_depth};
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder, ImageError};
 use std::path::{Path, PathBuf};
@@ -189,64 +186,4 @@ impl PngSeries {
         self.next += 1;
         self.writers.push(path, picture);
     }
-}
-
-/// The sample format of a picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum SampleFormat {
-    Grey8,
-    /// Words in the byte order of the machine.
-    Grey16,
-    Rgb8,
-}
-
-/// A picture as bytes.
-pub(super) struct RawImage {
-    pub(super) width: u32,
-    pub(super) height: u32,
-    pub(super) samples: SampleFormat,
-    pub(super) bytes: Vec<u8>,
-}
-
-impl From<PictureCanvas> for RawImage {
-    fn from(canvas: PictureCanvas) -> Self {
-        let PictureCanvas { width, height, rgb } = canvas;
-        Self { width, height, samples: SampleFormat::Rgb8, bytes: rgb }
-    }
-}
-
-impl RawImage {
-    /// Makes a picture of the screen, at the depth of [`display_depth`]. It reuses the memory of
-    /// `bytes`.
-    pub(super) fn of_screen(sink_frame: &SinkFrame<'_>, mut bytes: Vec<u8>) -> Self {
-        let bits = sink_frame.camera.pixel_bits();
-        let depth = display_depth(bits);
-        let shown = |value: u16| convert_depth(value, bits, depth);
-        bytes.clear();
-        let samples = match sink_frame.screen {
-            FramePixels::Bytes(pixels) if bits == depth => {
-                bytes.extend_from_slice(pixels);
-                SampleFormat::Grey8
-            }
-            FramePixels::Bytes(pixels) => {
-                bytes.extend(pixels.iter().map(|&value| to_byte(shown(value.into()))));
-                SampleFormat::Grey8
-            }
-            FramePixels::Words(pixels) => {
-                bytes.extend(pixels.iter().flat_map(|&value| shown(value).to_ne_bytes()));
-                SampleFormat::Grey16
-            }
-        };
-        Self {
-            width: sink_frame.camera.width(),
-            height: sink_frame.camera.height(),
-            samples,
-            bytes,
-        }
-    }
-}
-
-/// Converts an 8-bit value to a byte.
-pub(super) fn to_byte(value: u16) -> u8 {
-    u8::try_from(value).expect("it has 8 bits")
 }

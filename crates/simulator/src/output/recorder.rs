@@ -13,18 +13,19 @@ use foveate_pixels::FramePixels;
 use foveate_tools::SpaceReserve;
 use rayon::prelude::*;
 
+use super::arrays::ArraySink;
 use super::clock_files::ClockFiles;
 use super::data_set::{self, DataSetPaths};
+use super::event_files;
 use super::frame_packets::PacketFileSink;
 use super::frame_table::{FrameRow, FrameTable};
 use super::heatmap::HeatmapPainter;
-use super::npz::ArraySink;
 use super::overlay::OverlayPainter;
 use super::picture_series::PictureSeriesSink;
 use super::pixel_event_files::PixelEventFiles;
 use super::sink::{FrameSink, SinkFrame};
 use super::summary::{RunTotals, SentCounts};
-use super::{RunOptions, RunSummary, pixel_event_files};
+use super::{RunOptions, RunSummary};
 use crate::SimulatorError;
 use foveate_media::{LumaRange, SetForm, SourceFrame};
 use foveate_tools::Interrupt;
@@ -83,12 +84,7 @@ impl RunRecorder {
         let FrameContent { has_scores, has_map_versions } = content;
         let arrays = ArraySink::create(folder, design, has_scores)?;
         let mut sinks: Vec<Box<dyn FrameSink>> = vec![Box::new(arrays)];
-        sinks.append(&mut pixel_event_files::event_sinks(
-            folder,
-            design,
-            options.events,
-            has_scores,
-        )?);
+        sinks.append(&mut event_files::event_sinks(folder, design, options.events, has_scores)?);
         if let Some(packets) = options.packets {
             sinks.push(Box::new(PacketFileSink::create(folder, design, packets)?));
         }

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use foveate_media::PlaybackError;
 use foveate_tools::{Interrupt, Invocation, ProgramWriter, Tool, ToolError, Toolchain, has_room};
 
-use super::png_writers::{RawImage, SampleFormat};
+use super::raw_image::{RawImage, SampleFormat};
 use crate::SimulatorError;
 
 /// The largest number of bytes of disk space that ffmpeg asks for at once.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The syntheses of `foveate estimate`: of one design, for a report or for a row of the
-//! comparison ([`SynthesisTools`]), and, with `--place-and-route`, for the clock that a design
-//! reaches on a device ([`run`]).
+//! comparison ([`SynthesisTools`]).
 
 use crate::error::CliError;
 use foveate_design::Design;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Cases of long runs: the difference between the screen and the scene stays what a reference
-//! promises ([`invariant_on_scenes`]), and nothing goes wrong when positions, windows and flags
-//! wrap thousands of times, and frame numbers exceed 8 and 16 bits, in case a counter is too
-//! narrow ([`long_runs`]).
+//! Cases of references: over long clips, the difference between the screen and the scene stays
+//! what a reference promises ([`invariant_on_scenes`]).
 
 use crate::stress::designs::{config, design, frame_from_fn};
 use crate::stress::{CaseRow, RunDepth};

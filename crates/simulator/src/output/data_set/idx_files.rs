@@ -10,8 +10,8 @@ use foveate_pixels::FramePixels;
 
 use super::super::sink::{FrameSink, SinkFrame};
 use crate::SimulatorError;
-use crate::output::frame_table::HeadedFile;
-use crate::output::png_writers::to_byte;
+use crate::output::headed_file::HeadedFile;
+use crate::output::raw_image::to_byte;
 use foveate_media::{FootageError, IdxFile};
 use foveate_pixels::convert_depth;
 

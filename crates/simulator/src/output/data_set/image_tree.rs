@@ -14,7 +14,7 @@ use super::super::csv::CsvFile;
 use super::super::png_writers::PngWriters;
 use super::super::sink::{FrameSink, SinkFrame};
 use crate::SimulatorError;
-use crate::output::png_writers::RawImage;
+use crate::output::raw_image::RawImage;
 
 pub(super) const FOLDER: &str = "images";
 
