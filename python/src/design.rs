@@ -114,6 +114,7 @@ impl Design {
         self.inner.height()
     }
 
+    /// Bits per pixel.
     #[getter]
     fn pixel_bits(&self) -> u32 {
         self.inner.pixel_bits()
