@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use foveate_cosim::write_core;
 use foveate_emit::{Prefix, Top};
-use foveate_estimate::{EstimateJob, render_text};
+use foveate_estimate::EstimateJob;
 use foveate_tools::{Cache, Toolchain};
 use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
@@ -59,7 +59,7 @@ pub(crate) fn estimate(py: Python<'_>, camera: &Bound<'_, PyAny>) -> PyResult<(S
         let cache = Cache::from_env().map_err(raise)?;
         foveate_estimate::estimate(&toolchain, &cache, &job).map_err(raise)
     })??;
-    Ok((json(&report)?, render_text(&report, WIDTH)))
+    Ok((json(&report)?, report.tables().text(WIDTH)))
 }
 
 /// Calls `foveate.generate` for a method of a camera or a design.

@@ -3,6 +3,7 @@
 
 use std::io::{self, Write};
 
+use foveate_output::report::Report;
 use serde::Serialize;
 use terminal_size::Width;
 
@@ -30,6 +31,37 @@ pub(crate) fn print_json(value: &impl Serialize) -> Result<(), CliError> {
         .map_err(|e| CliError::Usage(format!("cannot write JSON: {e}")))?;
     // JSON has its own way to write control characters.
     write_text(&(rendered + "\n"))
+}
+
+/// Prints a result as JSON, as Markdown, or as tables for the terminal.
+pub(crate) fn print_report(
+    (is_json, is_markdown): (bool, bool),
+    value: &impl Serialize,
+    report: &Report,
+) -> Result<(), CliError> {
+    match (is_json, is_markdown) {
+        (true, _) => print_json(value),
+        (false, true) => print_text(&report.markdown()),
+        (false, false) => print_text(&report.text(text_width())),
+    }
+}
+
+/// Prints a result as JSON, or its text unless the command is quiet.
+pub(crate) fn print_result(
+    (is_json, is_quiet): (bool, bool),
+    value: &impl Serialize,
+    text: impl FnOnce() -> String,
+) -> Result<(), CliError> {
+    match (is_json, is_quiet) {
+        (true, _) => print_json(value),
+        (false, true) => Ok(()),
+        (false, false) => print_text(&text()),
+    }
+}
+
+/// Returns a paragraph of at most `width` columns; its later lines are indented.
+pub(crate) fn paragraph(text: &str, width: usize) -> String {
+    textwrap::fill(text, textwrap::Options::new(width).subsequent_indent("  ")) + "\n"
 }
 
 /// Returns the columns to fill, 40 to 120: the value of the environment variable `COLUMNS`, or else

@@ -50,7 +50,7 @@ pub use diagram::timing_diagram;
 pub use elaboration::{UnelaboratedVariant, unelaborated_variants};
 pub use energy::{
     ActivityClip, ENERGY_FORMAT_VERSION, EnergyError, EnergyJob, EnergyReport, PartEnergies,
-    StretchEnergy, measure_energy, render_energy_markdown, render_energy_text,
+    StretchEnergy, measure_energy,
 };
 pub use error::CosimError;
 pub use gate::ComparisonGate;

@@ -8,8 +8,8 @@ use crate::paper::{PAPER_RCM, PAPER_RPU};
 use crate::render::{heading, ramb36};
 use crate::report::AreaReport;
 use crate::speed::FrameRate;
-use crate::table::{ReportTable, wrap};
 use foveate_output::number_text::grouped;
+use foveate_output::report::{Report, ReportPart, ReportTable};
 
 /// The clocks per frame of the paper's array.
 const PAPER_CLOCKS_PER_FRAME: u64 = 64;
@@ -58,42 +58,22 @@ impl DesignComparison {
         self.candidates.push(ComparedDesign { name, report: report.with_clock(self.clock_mhz) });
     }
 
-    /// Returns the comparison for a terminal of `width` columns. Columns that do not fit are placed
-    /// below the others.
+    /// Returns the comparison as a table.
     #[must_use]
-    pub fn text(&self, width: usize) -> String {
-        let headings = self.heading().map(|heading| wrap(&heading, width) + "\n");
-        let skipped: String = self.skipped().map(|line| wrap(&line, width)).collect();
-        headings.unwrap_or_default() + &self.table().stacked_text(width) + &skipped
+    pub fn table(&self) -> Report {
+        let heading =
+            self.candidates.first().map(|one| ReportPart::Paragraph(heading(&one.report)));
+        let table = ReportPart::Table(self.candidate_table());
+        Report(heading.into_iter().chain([table]).collect())
     }
 
-    /// Returns the comparison as Markdown.
-    #[must_use]
-    pub fn markdown(&self) -> String {
-        let headings = self.heading().map(|heading| heading + "\n\n");
-        let skipped: String = self.skipped().map(|line| format!("\n{line}\n")).collect();
-        headings.unwrap_or_default() + &self.table().markdown() + &skipped
-    }
-
-    fn heading(&self) -> Option<String> {
-        self.candidates.first().map(|first| heading(&first.report))
-    }
-
-    fn skipped(&self) -> impl Iterator<Item = String> {
-        self.skipped
-            .iter()
-            .map(|SkippedDesign { name, reason }| format!("Without {name}: {reason}."))
-    }
-
-    fn table(&self) -> ReportTable {
+    fn candidate_table(&self) -> ReportTable {
         let is_used =
             |count: fn(&AreaReport) -> u64| self.candidates.iter().any(|c| count(&c.report) > 0);
         let dsp = is_used(|report| report.whole_area().dsp);
         let bram = is_used(|report| report.whole_area().bram18);
-        let mut header: Vec<String> = HEADER.map(str::to_owned).to_vec();
-        header.extend(dsp.then(|| "DSP".to_owned()));
-        header.extend(bram.then(|| "RAMB36".to_owned()));
-        header.push("device".to_owned());
+        let extra_names = [dsp.then_some("DSP"), bram.then_some("RAMB36"), Some("device")];
+        let header = HEADER.into_iter().chain(extra_names.into_iter().flatten());
         let extras = |dsps: String, brams: String| {
             dsp.then_some(dsps).into_iter().chain(bram.then_some(brams))
         };
@@ -110,29 +90,29 @@ impl DesignComparison {
         let lut = PAPER_RCM.lut * 10_000 / FpgaDevice::xcvu9p().lut;
         paper_row.push(format!("LUT {}.{:02}%", lut / 100, lut % 100));
         rows.push(paper_row);
-        ReportTable {
-            title: "Area, speed and logic levels".to_owned(),
-            header,
-            rows,
-            note: Some(format!(
-                "low, high: logic LUTs of one RPU or lane, with and without small ones sharing a \
-                 LUT. mem: LUTs as memory, two SRL16 in one, as Vivado packs them. LUT = high + \
-                 mem. levels: of the longest path, from and to registers, memories and ports. \
-                 cycles: clocks from frame to frame. MHz: {}. frames/s: at that clock. RCM, and \
-                 the columns right of it: all regions and the logic that they share{}. device: the \
-                 largest share of an {}.",
-                match self.clock_mhz {
-                    Some(_) => "the clock as it was given",
-                    None => "the clock that is estimated from the netlist, and its range",
-                },
-                if self.candidates.iter().any(|one| one.report.bus.is_some()) {
-                    ", and the AXI interface"
-                } else {
-                    ""
-                },
-                FpgaDevice::xcvu9p().name,
-            )),
-        }
+        let note = format!(
+            "low, high: logic LUTs of one RPU or lane, with and without small ones sharing a \
+             LUT. mem: LUTs as memory, two SRL16 in one, as Vivado packs them. LUT = high + \
+             mem. levels: of the longest path, from and to registers, memories and ports. \
+             cycles: clocks from frame to frame. MHz: {}. frames/s: at that clock. RCM, and \
+             the columns right of it: all regions and the logic that they share{}. device: the \
+             largest share of an {}.",
+            match self.clock_mhz {
+                Some(_) => "the clock as it was given",
+                None => "the clock that is estimated from the netlist, and its range",
+            },
+            if self.candidates.iter().any(|one| one.report.bus.is_some()) {
+                ", and the AXI interface"
+            } else {
+                ""
+            },
+            FpgaDevice::xcvu9p().name,
+        );
+        let skipped = self.skipped.iter();
+        let skipped = skipped.map(|one| format!("Without {}: {}.", one.name, one.reason));
+        let table = ReportTable::new(header, rows)
+            .described("Area, speed and logic levels", std::iter::once(note).chain(skipped));
+        ReportTable { is_stacked: true, ..table }
     }
 
     fn paper_row(&self) -> Vec<String> {
@@ -219,7 +199,7 @@ mod tests {
     #[test]
     fn one_table_fits_any_terminal() {
         for width in [60, 80, 200] {
-            let text = comparison().text(width);
+            let text = comparison().table().text(width);
             let widest = text.lines().map(|line| line.chars().count()).max();
             assert!(widest <= Some(width), "{text}");
             for part in [
@@ -241,15 +221,16 @@ mod tests {
     /// it does not state its clock.
     #[test]
     fn a_given_clock_applies_to_all_rates() {
-        let rates = |clock| comparison_at(clock).markdown().matches("| 100 | 1,562,500 |").count();
+        let rates =
+            |clock| comparison_at(clock).table().markdown().matches("| 100 | 1,562,500 |").count();
         assert_eq!([rates(Some(100.0)), rates(None)], [2, 0]);
-        let markdown = comparison().markdown();
+        let markdown = comparison().table().markdown();
         assert!(markdown.contains("| 64 |  |  | 143,472 |"), "{markdown}");
     }
 
     #[test]
     fn block_ram_has_a_column_where_there_is_some() {
-        let markdown = comparison().markdown();
+        let markdown = comparison().table().markdown();
         assert!(
             markdown.contains("| RAMB36 | device |") && markdown.contains("| 392 |"),
             "{markdown}"

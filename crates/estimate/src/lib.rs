@@ -26,7 +26,6 @@ mod report;
 mod routing;
 mod silicon;
 mod speed;
-mod table;
 
 pub use area::Area;
 pub use bus::{BusArea, PartArea};
@@ -40,12 +39,12 @@ pub use logic_levels::LogicPath;
 pub use paper::{
     PAPER_RCM, PAPER_REGIONS, PAPER_RPU, PaperComparison, PaperRatios, PaperReport, PaperRow,
 };
-pub use render::{ramb36, render_markdown, render_text};
+pub use render::ramb36;
 pub use report::{AreaReport, FORMAT_VERSION, LeafArea, LongestPaths};
 pub use routing::{
     ClockStatistics, CriticalPath, DeviceResult, PathEnd, PlacementResult, ROUTE_DEVICES,
     ROUTE_FORMAT_VERSION, ResourceShortage, ResourceUse, RouteDevice, RouteJob, RouteReport,
-    place_and_route, render_routes_markdown, render_routes_text,
+    place_and_route,
 };
 pub use silicon::{
     CellModel, CellModels, CellPin, CellTotals, FlatNetlist, FlipFlopState, HIGH_NET,
@@ -53,7 +52,5 @@ pub use silicon::{
     MacroChoice, MemoryFigures, MemoryTotals, NOT_INCLUDED, NetlistGate, OutputTransition,
     SILICON_FORMAT_VERSION, SiliconError, SiliconJob, SiliconLeaf, SiliconPath, SiliconReport,
     TimingSense, UnitFigures, check_libraries, gate_netlist, map_to_silicon, map_unit,
-    render_silicon_markdown, render_silicon_text,
 };
 pub use speed::{ClockEstimate, FrameRate, count_to_f64, most_clocks_per_frame};
-pub use table::{ReportTable, header, wrap};

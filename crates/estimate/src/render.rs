@@ -1,56 +1,38 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Renders the report as text for a terminal and as Markdown.
+//! The report in tables, for people.
 
 mod paper;
 
 use crate::area::Area;
 use crate::logic_levels::LogicPath;
 use crate::report::{AreaReport, LeafArea, LongestPaths};
-use crate::table::{ReportTable, header, wrap};
 use foveate_output::number_text::grouped;
+use foveate_output::report::{Report, ReportPart, ReportTable};
 use foveate_tools::ToolRecord;
 use paper::paper_table;
 
 /// The name of a core on AXI in tables.
 const AXI_CORE_NAME: &str = "RCM on AXI";
 
-const COLUMNS: [&str; 8] = ["low", "high", "memory", "LUT", "FF", "carry", "DSP", "RAMB36"];
+const COLUMNS: [&str; 9] =
+    ["module", "low", "high", "memory", "LUT", "FF", "carry", "DSP", "RAMB36"];
 
-/// Returns the report as tables for a terminal of `width` columns; 80 columns are enough.
-#[must_use]
-pub fn render_text(report: &AreaReport, width: usize) -> String {
-    let mut text = wrap(&heading(report), width);
-    for table in tables(report) {
-        text.push('\n');
-        text.push_str(&table.text(width));
+impl AreaReport {
+    /// Returns the report as tables; 80 columns of a terminal are enough.
+    #[must_use]
+    pub fn tables(&self) -> Report {
+        let leaves = (!self.leaves.is_empty()).then(|| leaf_table(self));
+        let further = [paper_table(self), leaves].into_iter().flatten();
+        let tables = [area_table(self), path_table(self)].into_iter().chain(further);
+        let heading = ReportPart::Paragraph(heading(self));
+        Report(std::iter::once(heading).chain(tables.map(ReportPart::Table)).collect())
     }
-    text
-}
-
-/// Returns the report as Markdown.
-#[must_use]
-pub fn render_markdown(report: &AreaReport) -> String {
-    let mut text = heading(report) + "\n";
-    for table in tables(report) {
-        text.push('\n');
-        text.push_str(&table.markdown());
-    }
-    text
 }
 
 pub(crate) fn heading(report: &AreaReport) -> String {
     let ToolRecord { version, flags, .. } = &report.tool;
     let version = version.split(" (").next().unwrap_or(version);
     format!("Yosys estimate ({version}): {flags}")
-}
-
-fn tables(report: &AreaReport) -> Vec<ReportTable> {
-    let mut tables = vec![area_table(report), path_table(report)];
-    tables.extend(paper_table(report));
-    if !report.leaves.is_empty() {
-        tables.push(leaf_table(report));
-    }
-    tables
 }
 
 fn area_table(report: &AreaReport) -> ReportTable {
@@ -73,12 +55,7 @@ fn area_table(report: &AreaReport) -> ReportTable {
         }
     }
     rows.push(share_row(report));
-    ReportTable {
-        title: area_title(report),
-        header: header("module", &COLUMNS),
-        rows,
-        note: Some(note),
-    }
+    ReportTable::new(COLUMNS, rows).described(area_title(report), Some(note))
 }
 
 fn area_title(report: &AreaReport) -> String {
@@ -125,12 +102,8 @@ fn path_table(report: &AreaReport) -> ReportTable {
     }
     note += "A LUT, a read of distributed RAM and a whole carry chain are a level each; CARRY4: blocks \
              of four bits in chains.";
-    ReportTable {
-        title: "Longest path in logic levels, from and to registers, memories and ports".to_owned(),
-        header: header("module", &["levels", "CARRY4"]),
-        rows,
-        note: Some(note),
-    }
+    let title = "Longest path in logic levels, from and to registers, memories and ports";
+    ReportTable::new(["module", "levels", "CARRY4"], rows).described(title, Some(note))
 }
 
 /// Returns the name of the whole design.
@@ -198,18 +171,13 @@ fn leaf_table(report: &AreaReport) -> ReportTable {
         report.bus.is_some() || report.leaves.first().is_some_and(|leaf| leaf.module == "rcm");
     let whole = if of_array { design_name(report) } else { report.unit.as_str() };
     let title = if of_array { format!("the {whole}") } else { format!("one {whole}") };
-    ReportTable {
-        title: format!("Modules of {title}, each synthesized apart"),
-        header: header(
-            "module",
-            &["count", "low", "high", "memory", "LUT", "FF", "carry", "RAMB36"],
-        ),
-        rows: report.leaves.iter().map(leaf_row).collect(),
-        note: Some(format!(
-            "Figures are for one instance without the modules inside it. They do not add up to the \
-             {whole} above, where logic is optimized across modules."
-        )),
-    }
+    let columns = ["module", "count", "low", "high", "memory", "LUT", "FF", "carry", "RAMB36"];
+    let note = format!(
+        "Figures are for one instance without the modules inside it. They do not add up to the \
+         {whole} above, where logic is optimized across modules."
+    );
+    ReportTable::new(columns, report.leaves.iter().map(leaf_row))
+        .described(format!("Modules of {title}, each synthesized apart"), Some(note))
 }
 
 fn leaf_row(leaf: &LeafArea) -> Vec<String> {
@@ -219,7 +187,7 @@ fn leaf_row(leaf: &LeafArea) -> Vec<String> {
     };
     let mut row = vec![name, grouped(leaf.instances)];
     // Without the column for DSP blocks, the names fit into 80 columns.
-    let figures = COLUMNS.into_iter().zip(area_row("", &leaf.area).into_iter().skip(1));
+    let figures = COLUMNS.into_iter().zip(area_row("", &leaf.area)).skip(1);
     row.extend(figures.filter(|(column, _)| *column != "DSP").map(|(_, figure)| figure));
     row
 }
@@ -233,12 +201,11 @@ pub fn ramb36(bram18: u64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::report::tests::{bus_example, example, serial_example};
 
     #[test]
     fn text_fits_the_terminal() {
-        let text = render_text(&example(784), 80);
+        let text = example(784).tables().text(80);
         let widest = text.lines().map(|line| line.chars().count()).max();
         assert!(widest <= Some(80), "{text}");
         for part in [
@@ -257,7 +224,7 @@ mod tests {
 
     #[test]
     fn frames_per_second_stand_beside_their_clock() {
-        let text = |mhz| render_text(&example(784).with_clock(mhz), 1000);
+        let text = |mhz| example(784).with_clock(mhz).tables().text(1000);
         let estimated = "60 MHz (48 to 80), by Yosys' cell models, which are of the 7 series. A frame takes \
                    64 clocks: 937,500 (750,000 to 1,250,000) frames/s at that clock. ";
         assert!(text(None).contains(estimated), "{}", text(None));
@@ -267,12 +234,12 @@ mod tests {
 
     #[test]
     fn the_paper_is_compared_only_with_an_array_of_its_size() {
-        assert!(!render_text(&example(4), 80).contains("143,472"));
+        assert!(!example(4).tables().text(80).contains("143,472"));
     }
 
     #[test]
     fn markdown_has_four_tables() {
-        let text = render_markdown(&example(784));
+        let text = example(784).tables().markdown();
         assert_eq!(text.matches("| --- |").count(), 4);
         assert!(text.contains("| RPU, Yosys estimate | 160 | 0.87x |"), "{text}");
         assert!(text.contains("| median WIDTH=8 SIDE=8 | 2 |"), "{text}");
@@ -280,7 +247,7 @@ mod tests {
 
     #[test]
     fn a_core_on_a_bus_has_rows_for_the_parts_around_the_array() {
-        let text = render_text(&bus_example(), 200);
+        let text = bus_example().tables().text(200);
         let rows: Vec<&str> =
             text.lines().map(|line| line.split("  ").next().unwrap_or("")).collect();
         let row_index = |name: &str| {
@@ -301,16 +268,16 @@ mod tests {
         ] {
             assert!(text.contains(part), "{part} in\n{text}");
         }
-        let widest = render_text(&bus_example(), 80).lines().map(|line| line.chars().count()).max();
+        let widest = bus_example().tables().text(80).lines().map(|line| line.chars().count()).max();
         assert!(widest <= Some(80));
-        assert!(!render_text(&example(4), 80).contains("AXI"));
+        assert!(!example(4).tables().text(80).contains("AXI"));
     }
 
     #[test]
     fn tables_of_a_serial_array_name_lanes() {
         let mut report = serial_example(784, 21);
         report.leaves[0].module = "rcm".into();
-        let text = render_text(&report, 200);
+        let text = report.tables().text(200);
         for part in [
             "Area of 784 regions, 21 lanes",
             "\nlane ",
@@ -323,11 +290,11 @@ mod tests {
             assert!(text.contains(part), "{part} in\n{text}");
         }
         assert_eq!(text.matches("RPU").count(), 1, "only the paper's:\n{text}");
-        let one = render_text(&serial_example(784, 1), 200);
+        let one = serial_example(784, 1).tables().text(200);
         assert!(one.contains("Area of 784 regions, one lane for all"), "{one}");
         assert!(one.contains("RCM, paper") && !one.contains("RPU"), "{one}");
-        assert!(!render_text(&serial_example(12, 1), 200).contains("paper"), "no array like it");
-        let each = render_text(&serial_example(784, 784), 200);
+        assert!(!serial_example(12, 1).tables().text(200).contains("paper"), "no array like it");
+        let each = serial_example(784, 784).tables().text(200);
         assert!(each.contains("Area of 784 regions, one lane each"), "{each}");
         assert!(each.contains("Modules of one lane,"), "{each}");
     }

@@ -7,7 +7,6 @@ use super::speed::ClockEstimate;
 use crate::area::Area;
 use crate::bus::BusArea;
 use crate::device::{DeviceShare, FpgaDevice};
-use crate::error::EstimateError;
 use crate::logic_levels::LogicPath;
 use crate::paper::{PAPER_RCM, PAPER_REGIONS, PAPER_RPU, PaperComparison, PaperReport};
 use crate::speed::FrameRate;
@@ -182,16 +181,6 @@ impl AreaReport {
         self.speed = given.or(self.speed);
         self
     }
-
-    /// Returns the report as indented JSON with a final line break.
-    ///
-    /// # Errors
-    /// Fails if the report cannot be serialized, which no report of this crate causes.
-    pub fn to_json(&self) -> Result<String, EstimateError> {
-        serde_json::to_string_pretty(self)
-            .map(|text| text + "\n")
-            .map_err(EstimateError::UnwritableReport)
-    }
 }
 
 #[cfg(test)]
@@ -292,7 +281,7 @@ pub(crate) mod tests {
     #[test]
     fn json_reads_back() {
         for report in [example(784), bus_example()] {
-            let json = report.to_json().unwrap();
+            let json = serde_json::to_string_pretty(&report).unwrap();
             assert!(json.contains("\"format_version\": 1"));
             assert_eq!(json.contains("\"bus\""), report.bus.is_some());
             assert_eq!(serde_json::from_str::<AreaReport>(&json).unwrap(), report);

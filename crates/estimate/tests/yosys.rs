@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tests of a toy design with Yosys. They are skipped with a message where Yosys is missing.
 
-use foveate_estimate::{EstimateError, EstimateJob, estimate, render_text};
+use foveate_estimate::{EstimateError, EstimateJob, estimate};
 use foveate_tools::{Cache, SynthesisJob, Tool, ToolError, Toolchain, testing::require_tools};
 
 fn toy_job(regions: u64) -> EstimateJob {
@@ -56,7 +56,7 @@ fn a_toy_array_is_estimated() {
     assert_eq!(modules, ["rpu", "adder", "adder", "pair", "ram"]);
     assert_eq!(report.leaves[1].instances, 2);
     assert!(report.leaves[4].parameters.contains(&"DEPTH=64".to_owned()));
-    assert!(render_text(&report, 80).contains("RCM, Yosys estimate"));
+    assert!(report.tables().text(80).contains("RCM, Yosys estimate"));
     assert_eq!(estimate(&tools, &cache, &job).unwrap(), report);
 
     // The same netlist is rejected for another design.

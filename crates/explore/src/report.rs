@@ -57,7 +57,7 @@ struct MainSections<'a> {
     has_areas: bool,
     fronts: Vec<DesignFront<'a>>,
     settings: &'a PointSettings,
-    points: SortableTable<'a>,
+    points: SortableTable,
     cards: Vec<PointCard>,
     /// The number of points that are not shown.
     hidden: usize,
@@ -79,7 +79,6 @@ pub(crate) fn render_page(exploration: &Exploration) -> Result<String, ExploreEr
     let titles: Vec<String> = rows.iter().map(|row| card::mark_title(row, &settings)).collect();
     let mut plots = scatter::plots(exploration, &rows, &groupings, &titles);
     plots.extend(threshold::plots(&settings, &rows, &titles));
-    let (columns, lines) = table::columns_and_rows(&settings, &rows);
     let about = AboutSection {
         clips: &exploration.clips,
         clip_names: table::clips(exploration),
@@ -93,15 +92,7 @@ pub(crate) fn render_page(exploration: &Exploration) -> Result<String, ExploreEr
         has_areas: has_synthesis || exploration.awaited_areas > 0,
         fronts: exploration.fronts(),
         settings: &settings,
-        points: SortableTable {
-            prefix: "p",
-            number: "number of the point",
-            link: "all figures of the point, with its configuration",
-            tall: true,
-            marks_best: true,
-            columns: &columns,
-            rows: lines.iter().collect(),
-        },
+        points: table::point_table(&settings, &rows, &titles),
         cards: rows.iter().map(|row| PointCard::new(row, &settings)).collect(),
         hidden: exploration.rows.len() - rows.len(),
     };

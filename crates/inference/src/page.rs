@@ -18,7 +18,6 @@ use foveate_design::Design;
 use foveate_output::page::{
     LinkTarget, PageError, PageNotice, PagePlot, ResultPage, SortableTable,
 };
-use rows::TableRows;
 
 /// The largest number of frames that a page shows. A page with more would be too large to open.
 const MAX_FRAMES: usize = 400;
@@ -39,16 +38,16 @@ struct AboutSection {
 
 #[derive(Template)]
 #[template(path = "main.html")]
-struct MainSections<'a> {
+struct MainSections {
     /// The frames with detections, if the network finds objects.
     shots: Option<figures::FramePictures>,
     plots: Vec<PagePlot>,
     /// The table of clips, if there are several.
-    clips: Option<SortableTable<'a>>,
-    layers: SortableTable<'a>,
-    tried: Option<SortableTable<'a>>,
+    clips: Option<SortableTable>,
+    layers: SortableTable,
+    tried: Option<SortableTable>,
     /// The table of counted frames, if there are any.
-    frames: Option<SortableTable<'a>>,
+    frames: Option<SortableTable>,
     /// The number of counted frames of which one is shown.
     every: usize,
     command: String,
@@ -82,10 +81,11 @@ pub(crate) fn render_page(
     let is_counted = !frames.is_empty();
     let (layers, tried, rows) =
         (rows::layers(summary), rows::trials(summary), rows::frames(&shown, summary));
-    let clips = rows::clips(summary);
-    let titles = [&layers, &tried, &rows].into_iter().flat_map(TableRows::titles).collect();
+    let all_rows = [&layers, &tried, &rows].into_iter().flat_map(|table| &table.rows);
+    let titles = all_rows.map(|row| (&row.id[..], &row.mark_title[..])).collect();
     let charts = if is_counted { charts(summary, &shown) } else { Vec::new() };
     let note = if every > 1 { sentences::sampling_note(every) } else { String::new() };
+    let plots = charts.iter().map(|drawn| figures::plot(drawn, &titles, &note)).collect();
     let title = sentences::title(summary);
     let failed =
         |error: askama::Error| PageError { page: title.clone(), problem: error.to_string() };
@@ -99,11 +99,11 @@ pub(crate) fn render_page(
     };
     let main = MainSections {
         shots: shots.map(figures::frame_pictures).transpose()?.flatten(),
-        plots: charts.iter().map(|drawn| figures::plot(drawn, &titles, &note)).collect(),
-        clips: (summary.clips.len() > 1).then(|| clips.table("number of the clip")),
-        layers: layers.table("number of the layer"),
-        tried: summary.tuning.is_some().then(|| tried.table("number of the run")),
-        frames: is_counted.then(|| rows.table("number of the frame")),
+        plots,
+        clips: (summary.clips.len() > 1).then(|| rows::clips(summary)),
+        layers,
+        tried: summary.tuning.is_some().then_some(tried),
+        frames: is_counted.then_some(rows),
         every,
         command: command_line::shell_command(command),
         camera: sentences::camera_text(design),

@@ -39,11 +39,7 @@ pub(crate) fn run(args: &AnalyzeArgs) -> Result<(), CliError> {
     let report = analyze(&request, &args.output, args.force, &hooks);
     hooks.progress.finish();
     let report = report?;
-    if args.json {
-        output::print_json(&report)?;
-    } else if !args.quiet {
-        output::print_text(&text(args, &report))?;
-    }
+    output::print_result((args.json, args.quiet), &report, || text(args, &report))?;
     if report.problems.is_empty() {
         return Ok(());
     }

@@ -6,7 +6,7 @@ mod table;
 
 use std::time::Duration;
 
-use foveate_cosim::{Benchmark, BenchmarkReport, ExternalTools, random_frames};
+use foveate_cosim::{Benchmark, ExternalTools, random_frames};
 use foveate_design::Design;
 use foveate_pixels::Frame;
 use foveate_simulator::SimulatorError;
@@ -32,7 +32,10 @@ pub(crate) fn run(args: &BenchArgs) -> Result<(), CliError> {
     let report = bench.run(tools, &mut |level| progress.report_work(level));
     progress.finish();
     let report = report?;
-    print_report(args, &report)?;
+    output::print_result((args.json, false), &report, || match args.markdown {
+        true => table::markdown(&report),
+        false => table::text(&report, output::text_width()),
+    })?;
     match report.differing_values() {
         0 => Ok(()),
         differing => Err(CliError::Failed(format!("the levels differ in {differing} values"))),
@@ -46,14 +49,4 @@ fn design_and_frames(args: &BenchArgs) -> Result<(Design, Vec<Frame>), CliError>
     }
     let frames = random_frames(&design, args.seed, args.frames).map_err(SimulatorError::from)?;
     Ok((design, frames))
-}
-
-fn print_report(args: &BenchArgs, report: &BenchmarkReport) -> Result<(), CliError> {
-    if args.json {
-        output::print_json(report)
-    } else if args.markdown {
-        output::print_text(&table::markdown(report))
-    } else {
-        output::print_text(&table::text(report, output::text_width()))
-    }
 }

@@ -57,18 +57,17 @@ pub(crate) fn run(args: &BuildArgs) -> Result<(), CliError> {
             folder.join(&built.bitstream).display()
         )
     });
-    if args.json {
-        output::print_json(&BuildReport {
-            format_version: 1,
-            board: &project.board.name,
-            fingerprint: project.design.fingerprint(),
-            folder: folder.display().to_string(),
-            files,
-            built,
-        })?;
-    } else if !args.quiet {
-        output::print_text(&text(&project, folder, files.len(), built.as_ref()))?;
-    }
+    let report = BuildReport {
+        format_version: 1,
+        board: &project.board.name,
+        fingerprint: project.design.fingerprint(),
+        folder: folder.display().to_string(),
+        files,
+        built,
+    };
+    output::print_result((args.json, args.quiet), &report, || {
+        text(&project, folder, report.files.len(), report.built.as_ref())
+    })?;
     complaint.map_or(Ok(()), |complaint| Err(CliError::Failed(complaint)))
 }
 

@@ -212,13 +212,8 @@ fn run_one(
 fn print_output(args: &CosimArgs, told: &CosimOutput<'_>) -> Result<(), CliError> {
     let passed = told.summary.verdict() == CosimVerdict::Passed
         && told.end_to_end.as_ref().is_none_or(EndToEndReport::agrees);
-    if args.json {
-        output::print_json(told)
-    } else if args.quiet && passed {
-        Ok(())
-    } else {
-        output::print_text(&text::summary_text(told, output::text_width()))
-    }
+    let text = || text::summary_text(told, output::text_width());
+    output::print_result((args.json, args.quiet && passed), told, text)
 }
 
 fn write_junit(args: &CosimArgs, xml: &str) -> Result<(), CliError> {

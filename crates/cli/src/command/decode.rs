@@ -32,11 +32,7 @@ pub(crate) fn run(args: &DecodeArgs) -> Result<(), CliError> {
         let file = args.output.join("losses.csv");
         notice::print_notice(&format_args!("and {more} more, in `{}`", file.display()));
     }
-    match (args.json, args.quiet) {
-        (true, _) => output::print_json(&summary)?,
-        (false, true) => {}
-        (false, false) => output::print_text(&text(&args.output, &summary))?,
-    }
+    output::print_result((args.json, args.quiet), &summary, || text(&args.output, &summary))?;
     hooks.check_complete(&args.output, summary.problem)
 }
 

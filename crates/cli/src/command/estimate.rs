@@ -7,7 +7,6 @@ mod route;
 mod silicon;
 mod synthesis;
 
-use foveate_estimate::{render_markdown, render_text};
 use foveate_tools::Cache;
 
 use crate::args::EstimateArgs;
@@ -36,11 +35,5 @@ fn estimate_one(args: &EstimateArgs, flow: &SynthesisTools) -> Result<(), CliErr
     let report = flow.estimate(&design, args.modules || args.json);
     progress.finish();
     let report = report?.with_clock(args.clock.map(f64::from));
-    if args.json {
-        output::print_json(&report)
-    } else if args.markdown {
-        output::print_text(&render_markdown(&report))
-    } else {
-        output::print_text(&render_text(&report, output::text_width()))
-    }
+    output::print_report((args.json, args.markdown), &report, &report.tables())
 }

@@ -15,9 +15,5 @@ pub(crate) fn run(args: &ExplainArgs) -> Result<(), CliError> {
     let player = ClipPlayer::open(&args.inputs, &config.camera, &options)?;
     warn_about_inputs(&args.inputs, &options);
     let explanation = explain_region(&config, player, args.frame, args.region)?;
-    if args.json {
-        output::print_json(&explanation)
-    } else {
-        output::print_text(&explanation.to_string())
-    }
+    output::print_result((args.json, false), &explanation, || explanation.to_string())
 }

@@ -7,8 +7,8 @@ mod units;
 use std::path::Path;
 
 use foveate_explore::{
-    BUILT_IN_SPACES, DesignSpace, Exploration, ExploreError, ExploreRequest, ProcessRequest,
-    SynthesisRequest, check_folder, explore,
+    BUILT_IN_SPACES, DesignSpace, ExploreError, ExploreRequest, ProcessRequest, SynthesisRequest,
+    check_folder, explore,
 };
 use foveate_media::{ImageRelation, PlaybackError};
 
@@ -64,28 +64,16 @@ pub(crate) fn run(args: &ExploreArgs) -> Result<(), CliError> {
         }
         other => other?,
     };
-    print_exploration(args, folder, &found)?;
+    let is_quiet = args.quiet && !args.markdown;
+    output::print_result((args.json, is_quiet), &found, || match args.markdown {
+        true => table::markdown(&found),
+        false => table::text(folder, &found, output::text_width()),
+    })?;
     if found.problems.is_empty() {
         return Ok(());
     }
     let place = folder.display();
     Err(CliError::Failed(format!("`{place}` is not complete: {}", found.problems.join("; "))))
-}
-
-fn print_exploration(
-    args: &ExploreArgs,
-    folder: &Path,
-    found: &Exploration,
-) -> Result<(), CliError> {
-    if args.json {
-        output::print_json(found)
-    } else if args.markdown {
-        output::print_text(&table::markdown(found))
-    } else if args.quiet {
-        Ok(())
-    } else {
-        output::print_text(&table::text(folder, found, output::text_width()))
-    }
 }
 
 /// Reads the file. If it does not exist, the built-in space of that name is returned.

@@ -57,11 +57,7 @@ pub(crate) fn run(args: &FitArgs) -> Result<(), CliError> {
     if let Some(file) = &args.output {
         write_file(file, found.design.toml.as_bytes())?;
     }
-    if args.json {
-        output::print_json(&found)?;
-    } else {
-        output::print_text(&text(args, &found, output::text_width()))?;
-    }
+    output::print_result((args.json, false), &found, || text(args, &found, output::text_width()))?;
     check_result(&found)
 }
 
@@ -107,7 +103,7 @@ fn text(args: &FitArgs, found: &FitResult, width: usize) -> String {
     }
     let heading = if found.feasible { "Cheapest" } else { "No design meets all limits; nearest" };
     text.push('\n');
-    paragraph(&mut text, &format!("{heading}: {}", design.summary), width, "  ");
+    text += &output::paragraph(&format!("{heading}: {}", design.summary), width);
     let (unit, array) = (&design.silicon.unit, &design.silicon.array);
     let silicon = format!(
         "{} of {} LUTs ({} of them memory) and {} flip-flops; the array {} LUTs, {} flip-flops, {} RAMB36; \
@@ -122,10 +118,10 @@ fn text(args: &FitArgs, found: &FitResult, width: usize) -> String {
         design.clocks_per_frame,
         design.speed.map_or_else(|| "no estimated clock".to_owned(), |speed| speed.text()),
     );
-    paragraph(&mut text, &silicon, width, "  ");
+    text += &output::paragraph(&silicon, width);
     if let Some(process) = &design.process {
         let line = process_text(design, process);
-        paragraph(&mut text, &line, width, "  ");
+        text += &output::paragraph(&line, width);
     }
     let halves = [
         ("fitted", &design.fitted, &design.fitted_held),
@@ -133,7 +129,7 @@ fn text(args: &FitArgs, found: &FitResult, width: usize) -> String {
     ];
     for (name, figures, checks) in halves {
         text.push('\n');
-        paragraph(&mut text, &format!("{name}: {}", figures_text(figures)), width, "  ");
+        text += &output::paragraph(&format!("{name}: {}", figures_text(figures)), width);
         for check in checks {
             let sign = if check.holds { "ok  " } else { "NOT " };
             let _ = writeln!(text, "  {sign}{}", check.text());
@@ -142,7 +138,7 @@ fn text(args: &FitArgs, found: &FitResult, width: usize) -> String {
     if let Some(network) = &found.network {
         text.push('\n');
         for line in agreement_lines(network, design) {
-            paragraph(&mut text, &line, width, "  ");
+            text += &output::paragraph(&line, width);
         }
     }
     if !found.binding.is_empty() {
@@ -150,14 +146,14 @@ fn text(args: &FitArgs, found: &FitResult, width: usize) -> String {
         let line =
             format!("Binding: without {}, a design would meet all limits.", options.join(" or "));
         text.push('\n');
-        paragraph(&mut text, &line, width, "  ");
+        text += &output::paragraph(&line, width);
     }
     if !found.feasible && found.binding.is_empty() {
         text += "\nNo single limit is binding: every design exceeds more than one.\n";
     }
     text += "\nWhy:\n";
     for line in &found.why {
-        paragraph(&mut text, &format!("- {line}"), width, "  ");
+        text += &output::paragraph(&format!("- {line}"), width);
     }
     match &args.output {
         Some(file) => {
@@ -262,12 +258,4 @@ fn figures_text(figures: &FidelityFigures) -> String {
         figures.active_iou,
         figures.ssim_ideal,
     )
-}
-
-/// Appends a paragraph of at most `width` columns; its later lines are indented.
-fn paragraph(text: &mut String, line: &str, width: usize, indent: &str) {
-    let options = textwrap::Options::new(width).subsequent_indent(indent);
-    for line in textwrap::wrap(line, options) {
-        let _ = writeln!(text, "{line}");
-    }
 }

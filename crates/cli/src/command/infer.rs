@@ -52,11 +52,7 @@ fn run_clips(args: &InferArgs, words: &[OsString], folder: &Path) -> Result<(), 
     hooks.progress.finish();
     let summary = summary?;
     summary.warnings.iter().for_each(|warning| notice::print_warning(warning));
-    match (args.json, args.quiet) {
-        (true, _) => output::print_json(&summary)?,
-        (false, false) => output::print_text(&text(folder, &summary))?,
-        (false, true) => {}
-    }
+    output::print_result((args.json, args.quiet), &summary, || text(folder, &summary))?;
     hooks.check_complete(folder, summary.problem)
 }
 

@@ -33,11 +33,7 @@ pub(crate) fn run(args: &LinkArgs) -> Result<(), CliError> {
     let report = compare(&request, &interrupt::toolchain()?, &args.output, args.force, &hooks);
     hooks.progress.finish();
     let report = report?;
-    match (args.json, args.quiet) {
-        (true, _) => output::print_json(&report)?,
-        (false, false) => output::print_text(&report.markdown())?,
-        (false, true) => {}
-    }
+    output::print_result((args.json, args.quiet), &report, || report.markdown())?;
     let problems = report.problems();
     if problems.is_empty() {
         return Ok(());

@@ -30,22 +30,15 @@ pub(crate) fn run(args: &PresetsArgs) -> Result<(), CliError> {
         let mut config = own.validate()?.config();
         (config.camera.frame.width, config.camera.frame.height) =
             (own.camera.frame.width, own.camera.frame.height);
-        return if args.json {
-            output::print_json(&config)
-        } else {
-            output::print_text(&preset_file(name, &config))
-        };
+        return output::print_result((args.json, false), &config, || preset_file(name, &config));
     }
     let entries: Vec<CatalogEntry> = if args.scenes {
         Scene::ALL.iter().map(|s| CatalogEntry { name: s.name(), summary: s.summary() }).collect()
     } else {
         PRESETS.iter().map(|p| CatalogEntry { name: p.name, summary: p.summary }).collect()
     };
-    if args.json {
-        output::print_json(&CatalogListing { format_version: 1, entries })
-    } else {
-        output::print_text(&catalog_text(&entries))
-    }
+    let listing = CatalogListing { format_version: 1, entries };
+    output::print_result((args.json, false), &listing, || catalog_text(&listing.entries))
 }
 
 fn preset_file(name: &str, config: &DesignConfig) -> String {

@@ -56,30 +56,16 @@ pub(super) fn run_job(job: &SimulationJob<'_>) -> Result<(), CliError> {
             let summary = simulation.run(folder, options, &hooks);
             hooks.progress.finish();
             let summary = summary?;
-            print_summary(job, &summary, || text(folder, &summary))?;
+            output::print_result((job.json, job.quiet), &summary, || text(folder, &summary))?;
             hooks.check_complete(folder, summary.problem)
         }
         ClipPlan::Batch(clips) => {
             let summary = run_batch(&clips, config, input, folder, options, &hooks);
             hooks.progress.finish();
             let summary = summary?;
-            print_summary(job, &summary, || batch_text(folder, &summary))?;
+            output::print_result((job.json, job.quiet), &summary, || batch_text(folder, &summary))?;
             hooks.check_complete(folder, summary.problem)
         }
-    }
-}
-
-/// Prints the summary: as JSON if JSON was asked for, and otherwise as text unless the command is
-/// quiet.
-fn print_summary(
-    job: &SimulationJob<'_>,
-    summary: &impl serde::Serialize,
-    text: impl Fn() -> String,
-) -> Result<(), CliError> {
-    match (job.json, job.quiet) {
-        (true, _) => output::print_json(summary),
-        (false, true) => Ok(()),
-        (false, false) => output::print_text(&text()),
     }
 }
 

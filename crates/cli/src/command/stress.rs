@@ -8,6 +8,7 @@ use foveate_explore::{
 };
 use foveate_measure::stress::{CaseRow, RunDepth};
 use foveate_media::{ImageRelation, PlaybackError};
+use foveate_output::report::ReportTable;
 use serde::Serialize;
 
 use crate::args::{DesignArgs, StressArgs, warn_about_inputs};
@@ -51,13 +52,9 @@ pub(crate) fn run(args: &StressArgs) -> Result<(), CliError> {
     progress.finish();
     let broken = rows.iter().filter(|row| !row.is_as_expected).count();
     let holds = broken == 0 && !interrupted.load(Ordering::Relaxed);
-    if args.json {
-        output::print_json(&StressReport { format_version: 1, holds, rows: &rows })?;
-    } else if args.markdown {
-        output::print_text(&markdown(&rows))?;
-    } else {
-        output::print_text(&text(&rows))?;
-    }
+    let report = StressReport { format_version: 1, holds, rows: &rows };
+    let shown = || if args.markdown { markdown(&rows) } else { text(&rows) };
+    output::print_result((args.json, false), &report, shown)?;
     match (interrupted.load(Ordering::Relaxed), broken) {
         (true, _) => Err(CliError::Stopped { done: format!("{} rows", rows.len()) }),
         (false, 0) => Ok(()),
@@ -85,17 +82,19 @@ fn disturb(args: &StressArgs) -> Result<(), CliError> {
         }
         other => other?,
     };
-    if args.json {
-        let (design, task) = (design.to_toml(), task.to_toml());
-        let (rows, sources, problems) = (&*rows, &*sources, &*problems);
-        let format_version = 1;
-        let report = DisturbanceReport { format_version, design, task, rows, sources, problems };
-        output::print_json(&report)?;
-    } else {
+    let report = DisturbanceReport {
+        format_version: 1,
+        design: design.to_toml(),
+        task: task.to_toml(),
+        rows: &rows,
+        sources: &sources,
+        problems: &problems,
+    };
+    output::print_result((args.json, false), &report, || {
         let flips = rows.first().map_or(0.0, |row| row.flips);
         let sources = source_table(&sources, flips, args.markdown);
-        output::print_text(&format!("{}\n{sources}", disturbed_table(&rows, args.markdown)))?;
-    }
+        format!("{}\n{sources}", disturbed_table(&rows, args.markdown))
+    })?;
     match problems.is_empty() {
         true => Ok(()),
         false => {
@@ -153,18 +152,15 @@ fn figure_table<const N: usize>(
     rows: impl Iterator<Item = [String; N]>,
     is_markdown: bool,
 ) -> String {
+    if is_markdown {
+        let rows = rows.map(Vec::from).collect();
+        return ReportTable { rows, ..ReportTable::of_words(names) }.markdown();
+    }
     let line = |cells: [String; N]| {
-        if is_markdown {
-            return format!("| {} |\n", cells.join(" | "));
-        }
         let rest: String = cells[1..].iter().map(|cell| format!("  {cell:>14}")).collect();
         format!("{:<14}{rest}\n", cells[0])
     };
-    let mut text = line(names.map(str::to_owned));
-    if is_markdown {
-        text += &format!("|{}\n", " --- |".repeat(N));
-    }
-    text + &rows.map(line).collect::<String>()
+    std::iter::once(names.map(str::to_owned)).chain(rows).map(line).collect()
 }
 
 fn verdict(row: &CaseRow) -> &'static str {
@@ -190,14 +186,11 @@ fn text(rows: &[CaseRow]) -> String {
 }
 
 fn markdown(rows: &[CaseRow]) -> String {
-    let mut text = "| case | designs | expected | observed | worst error | verdict |\n\
-                    | --- | --- | --- | --- | --- | --- |\n"
-        .to_owned();
-    for row in rows {
+    let names = ["case", "designs", "expected", "observed", "worst error", "verdict"];
+    let row = |row: &CaseRow| {
         let CaseRow { case, designs, expected, observed, worst, .. } = row;
-        let verdict = verdict(row);
-        text +=
-            &format!("| {case} | {designs} | {expected} | {observed} | {worst} | {verdict} |\n");
-    }
-    text
+        [*case, designs, expected, observed, worst, verdict(row)].map(str::to_owned).to_vec()
+    };
+    let rows = rows.iter().map(row).collect();
+    ReportTable { rows, ..ReportTable::of_words(names) }.markdown()
 }

@@ -22,8 +22,5 @@ mod unit_activity;
 
 pub use energy_job::{EnergyJob, measure_energy};
 pub use error::EnergyError;
-pub use report::{
-    ENERGY_FORMAT_VERSION, EnergyReport, PartEnergies, StretchEnergy, render_energy_markdown,
-    render_energy_text,
-};
+pub use report::{ENERGY_FORMAT_VERSION, EnergyReport, PartEnergies, StretchEnergy};
 pub use stretches::ActivityClip;

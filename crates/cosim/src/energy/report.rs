@@ -3,8 +3,8 @@
 //! Markdown.
 
 pub use crate::energy::energy_sum::PartEnergies;
-use foveate_estimate::{ReportTable, header, wrap};
 use foveate_output::number_text::{grouped, real_number};
+use foveate_output::report::{Report, ReportPart, ReportTable};
 use serde::{Deserialize, Serialize};
 
 /// The version of the JSON report. It grows when a field changes its meaning or is removed.
@@ -68,43 +68,32 @@ pub struct StretchEnergy {
     pub default_activity_pj_per_clock: f64,
 }
 
-const COLUMNS: [&str; 7] =
-    ["frames", "sent %", "pJ/clock", "nJ/region", "mW stops", "mW runs", "pJ at 0.1"];
-const PART_COLUMNS: [&str; 4] = ["clock", "memory", "other FF", "logic"];
+const COLUMNS: [&str; 8] =
+    ["stretch", "frames", "sent %", "pJ/clock", "nJ/region", "mW stops", "mW runs", "pJ at 0.1"];
 
-/// Returns the report as tables for a terminal of `width` columns; 80 columns are enough.
-#[must_use]
-pub fn render_energy_text(report: &EnergyReport, width: usize) -> String {
-    let mut text =
-        format!("{}\n{}\n", energy_table(report).text(width), part_table(report).text(width));
-    text.extend(sentences(report).iter().map(|sentence| wrap(sentence, width)));
-    text
-}
-
-/// Returns the report as Markdown.
-#[must_use]
-pub fn render_energy_markdown(report: &EnergyReport) -> String {
-    let mut text =
-        format!("{}\n{}\n", energy_table(report).markdown(), part_table(report).markdown());
-    text.extend(sentences(report).iter().map(|sentence| format!("* {sentence}\n")));
-    text
+impl EnergyReport {
+    /// Returns the report as tables and sentences; 80 columns of a terminal are enough.
+    #[must_use]
+    pub fn tables(&self) -> Report {
+        let [energies, parts] = [energy_table(self), part_table(self)].map(ReportPart::Table);
+        Report(vec![energies, parts, ReportPart::Sentences(sentences(self))])
+    }
 }
 
 fn energy_table(report: &EnergyReport) -> ReportTable {
-    ReportTable {
-        title: format!("Energy on {} frames of {}", grouped(report.frames), report.clip),
-        header: header("stretch", &COLUMNS),
-        rows: report.stretches.iter().map(energy_row).collect(),
-        note: Some(format!(
-            "sent %: the share of regions that are sent. pJ/clock: the energy of one {} in a clock. nJ/region: the \
-             energy of a region in a frame. mW: the power of the array at {} frames/s, if its clock stops when a \
-             frame is done, and if it always runs at {} MHz. pJ at 0.1: pJ/clock if every net changed at every tenth \
-             clock, as tools assume.",
-            report.unit,
-            real_number(report.frame_rate, 1),
-            real_number(report.clock_mhz, 1),
-        )),
-    }
+    let note = format!(
+        "sent %: the share of regions that are sent. pJ/clock: the energy of one {} in a clock. nJ/region: the \
+         energy of a region in a frame. mW: the power of the array at {} frames/s, if its clock stops when a \
+         frame is done, and if it always runs at {} MHz. pJ at 0.1: pJ/clock if every net changed at every tenth \
+         clock, as tools assume.",
+        report.unit,
+        real_number(report.frame_rate, 1),
+        real_number(report.clock_mhz, 1),
+    );
+    ReportTable::new(COLUMNS, report.stretches.iter().map(energy_row)).described(
+        format!("Energy on {} frames of {}", grouped(report.frames), report.clip),
+        Some(note),
+    )
 }
 
 fn energy_row(stretch: &StretchEnergy) -> Vec<String> {
@@ -127,18 +116,13 @@ fn part_table(report: &EnergyReport) -> ReportTable {
         let parts = stretch.region_nj_per_frame;
         let share = |part: f64| real_number(100.0 * part / parts.total().max(f64::MIN_POSITIVE), 1);
         let shares = [parts.clock, parts.memory, parts.flip_flops, parts.logic].map(share);
-        std::iter::once(stretch.name.clone()).chain(shares).collect()
+        std::iter::once(stretch.name.clone()).chain(shares)
     };
-    ReportTable {
-        title: "Parts of the energy of a region, in %".to_owned(),
-        header: header("stretch", &PART_COLUMNS),
-        rows: report.stretches.iter().map(row).collect(),
-        note: Some(
-            "clock: the clock pins of all flip-flops. memory: the flip-flops that are words of memories. other FF: the \
-             other flip-flops. logic: the gates."
-                .to_owned(),
-        ),
-    }
+    let note = "clock: the clock pins of all flip-flops. memory: the flip-flops that are words of memories. other FF: the \
+         other flip-flops. logic: the gates.";
+    let columns = ["stretch", "clock", "memory", "other FF", "logic"];
+    ReportTable::new(columns, report.stretches.iter().map(row))
+        .described("Parts of the energy of a region, in %", Some(note.to_owned()))
 }
 
 fn sentences(report: &EnergyReport) -> Vec<String> {

@@ -4,8 +4,8 @@
 use crate::area::Area;
 use crate::paper::PaperComparison;
 use crate::report::AreaReport;
-use crate::table::{ReportTable, header};
 use foveate_output::number_text::grouped;
+use foveate_output::report::ReportTable;
 
 /// Returns the table; `None` if the paper has no comparable module.
 pub(super) fn paper_table(report: &AreaReport) -> Option<ReportTable> {
@@ -20,13 +20,9 @@ pub(super) fn paper_table(report: &AreaReport) -> Option<ReportTable> {
     if rows.is_empty() {
         return None;
     }
-    let columns = ["LUT", "ratio", "FF", "ratio", "LUTRAM", "ratio"];
-    Some(ReportTable {
-        title: "Beside the paper's table (Vivado, 8x8 regions, 224x224 frames)".to_owned(),
-        header: header("", &columns),
-        rows,
-        note: None,
-    })
+    let columns = ["", "LUT", "ratio", "FF", "ratio", "LUTRAM", "ratio"];
+    let title = "Beside the paper's table (Vivado, 8x8 regions, 224x224 frames)";
+    Some(ReportTable::new(columns, rows).described(title, None))
 }
 
 /// Returns the row of the paper's module, and those of the design's module.

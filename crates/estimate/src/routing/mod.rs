@@ -20,6 +20,6 @@ pub use device::{ROUTE_DEVICES, RouteDevice};
 pub use job::{RouteJob, place_and_route};
 pub use report::{
     ClockStatistics, CriticalPath, DeviceResult, PathEnd, PlacementResult, ROUTE_FORMAT_VERSION,
-    ResourceUse, RouteReport, render_routes_markdown, render_routes_text,
+    ResourceUse, RouteReport,
 };
 pub use shortage::ResourceShortage;

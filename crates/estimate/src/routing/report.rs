@@ -7,8 +7,8 @@ use super::netlist::{ModuleHierarchy, NetlistCell, PlacementNetlist, replaced_po
 use super::nextpnr_report::{CellPin, TimingPath};
 use super::shortage::ResourceShortage;
 use crate::speed::ClockEstimate;
-use crate::table::{ReportTable, header, wrap};
 use foveate_output::number_text::grouped;
+use foveate_output::report::{Report, ReportPart, ReportTable};
 use foveate_tools::ToolRecord;
 use serde::{Deserialize, Serialize};
 
@@ -112,6 +112,19 @@ impl RouteReport {
     pub fn shortage_sentences(&self) -> Vec<String> {
         self.devices.iter().filter_map(DeviceResult::shortage_sentence).collect()
     }
+
+    /// Returns the report as a table with a sentence on each device.
+    #[must_use]
+    pub fn table(&self) -> Report {
+        let note = "logic: LUT4 of ECP5 and Gowin, logic cells of iCE40. fmax: the clock of the median seed, the slowest and \
+             the fastest one. Flip-flops at the ports are left out.";
+        let table = ReportTable::new(COLUMNS, self.devices.iter().map(row))
+            .described(format!("{} placed and routed by nextpnr", self.top), Some(note.to_owned()));
+        let misfits = self.shortage_sentences().into_iter().map(|misfit| misfit + ".");
+        let sentences = self.devices.iter().filter_map(sentence).chain(misfits).collect();
+        let table = ReportTable { is_stacked: true, ..table };
+        Report(vec![ReportPart::Table(table), ReportPart::Sentences(sentences)])
+    }
 }
 
 impl DeviceResult {
@@ -123,39 +136,12 @@ impl DeviceResult {
     }
 }
 
-const COLUMNS: [&str; 8] =
-    ["logic", "FF", "block RAM", "SPRAM", "DSP", "fmax MHz", "slowest", "fastest"];
-
-/// Returns the report as a table for a terminal of `width` columns, with a sentence on each device.
-#[must_use]
-pub fn render_routes_text(report: &RouteReport, width: usize) -> String {
-    let sentences = sentences(report).map(|sentence| wrap(&sentence, width));
-    table(report).stacked_text(width) + "\n" + &sentences.collect::<String>()
-}
-
-/// Returns the report as Markdown.
-#[must_use]
-pub fn render_routes_markdown(report: &RouteReport) -> String {
-    let sentences = sentences(report).map(|sentence| format!("* {sentence}\n"));
-    table(report).markdown() + "\n" + &sentences.collect::<String>()
-}
-
-fn table(report: &RouteReport) -> ReportTable {
-    ReportTable {
-        title: format!("{} placed and routed by nextpnr", report.top),
-        header: header("device", &COLUMNS),
-        rows: report.devices.iter().map(row).collect(),
-        note: Some(
-            "logic: LUT4 of ECP5 and Gowin, logic cells of iCE40. fmax: the clock of the median seed, the slowest and \
-             the fastest one. Flip-flops at the ports are left out."
-                .to_owned(),
-        ),
-    }
-}
+const COLUMNS: [&str; 9] =
+    ["device", "logic", "FF", "block RAM", "SPRAM", "DSP", "fmax MHz", "slowest", "fastest"];
 
 fn row(routed: &DeviceResult) -> Vec<String> {
     let cells = match &routed.placed {
-        None => vec!["-".to_owned(); COLUMNS.len()],
+        None => vec!["-".to_owned(); COLUMNS.len() - 1],
         Some(PlacementResult { logic, ff, block_ram, spram, dsp, fmax, .. }) => {
             let used =
                 [logic, ff, block_ram, spram, dsp].map(|ResourceUse { used, .. }| grouped(*used));
@@ -164,11 +150,6 @@ fn row(routed: &DeviceResult) -> Vec<String> {
         }
     };
     std::iter::once(routed.device.clone()).chain(cells).collect()
-}
-
-fn sentences(report: &RouteReport) -> impl Iterator<Item = String> {
-    let misfits = report.shortage_sentences().into_iter().map(|misfit| misfit + ".");
-    report.devices.iter().filter_map(sentence).chain(misfits)
 }
 
 fn sentence(routed: &DeviceResult) -> Option<String> {

@@ -34,6 +34,5 @@ pub use lookup_table::LookupTable;
 pub use mapping::{MacroChoice, MemoryFigures};
 pub use report::{
     LibraryFigures, MemoryTotals, NOT_INCLUDED, SILICON_FORMAT_VERSION, SiliconReport, UnitFigures,
-    render_silicon_markdown, render_silicon_text,
 };
 pub use timing::SiliconPath;

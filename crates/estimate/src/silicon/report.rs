@@ -7,8 +7,8 @@ use super::leaves::SiliconLeaf;
 use super::mapping::MemoryFigures;
 use super::timing::SiliconPath;
 use crate::speed::count_to_f64;
-use crate::table::{ReportTable, header, wrap};
 use foveate_output::number_text::{grouped, real_number};
+use foveate_output::report::{Report, ReportPart, ReportTable};
 use foveate_tools::ToolRecord;
 use serde::{Deserialize, Serialize};
 
@@ -134,40 +134,20 @@ impl SiliconReport {
         let of_region = self.area_mm2() * 1e6 / count_to_f64(self.regions);
         of_region.sqrt() / f64::from(self.region_size)
     }
+
+    /// Returns the report as tables and sentences; 80 columns of a terminal are enough.
+    #[must_use]
+    pub fn tables(&self) -> Report {
+        let memories = (!self.memories.is_empty()).then(|| memory_table(self));
+        let tables = [area_table(self)].into_iter().chain(memories).map(ReportPart::Table);
+        let leaves = (!self.leaves.is_empty()).then(|| ReportPart::Table(leaf_table(self)));
+        Report(tables.chain([ReportPart::Sentences(sentences(self))]).chain(leaves).collect())
+    }
 }
 
-const COLUMNS: [&str; 6] = ["count", "cells", "FF", "um2", "FF %", "gates"];
-const MEMORY_COLUMNS: [&str; 5] = ["count", "words", "bits", "macros of one", "um2 of one"];
-
-/// Returns the report as tables for a terminal of `width` columns; 80 columns are enough.
-#[must_use]
-pub fn render_silicon_text(report: &SiliconReport, width: usize) -> String {
-    let mut text = area_table(report).text(width);
-    if let Some(table) = memory_table(report) {
-        text += &format!("\n{}", table.text(width));
-    }
-    text.push('\n');
-    text.extend(sentences(report).iter().map(|sentence| wrap(sentence, width)));
-    if !report.leaves.is_empty() {
-        text += &format!("\n{}", leaf_table(report).text(width));
-    }
-    text
-}
-
-/// Returns the report as Markdown.
-#[must_use]
-pub fn render_silicon_markdown(report: &SiliconReport) -> String {
-    let mut text = area_table(report).markdown();
-    if let Some(table) = memory_table(report) {
-        text += &format!("\n{}", table.markdown());
-    }
-    text.push('\n');
-    text.extend(sentences(report).iter().map(|sentence| format!("* {sentence}\n")));
-    if !report.leaves.is_empty() {
-        text += &format!("\n{}", leaf_table(report).markdown());
-    }
-    text
-}
+const COLUMNS: [&str; 7] = ["module", "count", "cells", "FF", "um2", "FF %", "gates"];
+const MEMORY_COLUMNS: [&str; 6] =
+    ["memory", "count", "words", "bits", "macros of one", "um2 of one"];
 
 fn leaf_table(report: &SiliconReport) -> ReportTable {
     let of = report.leaves.first().map_or("", |leaf| leaf.module.as_str());
@@ -176,16 +156,10 @@ fn leaf_table(report: &SiliconReport) -> ReportTable {
         let name: Vec<_> = name.chain(leaf.parameters.iter().map(String::as_str)).collect();
         area_row(report, &name.join(" "), leaf.instances, leaf.cells)
     });
-    ReportTable {
-        title: format!("Modules of {of}, each mapped apart"),
-        header: header("module", &COLUMNS),
-        rows: rows.collect(),
-        note: Some(
-            "Figures are for one instance without the modules inside it. They do not add up to those above, where \
-             logic is optimized across modules."
-                .to_owned(),
-        ),
-    }
+    let note = "Figures are for one instance without the modules inside it. They do not add up to those above, where \
+         logic is optimized across modules.";
+    ReportTable::new(COLUMNS, rows)
+        .described(format!("Modules of {of}, each mapped apart"), Some(note.to_owned()))
 }
 
 fn area_table(report: &SiliconReport) -> ReportTable {
@@ -196,16 +170,13 @@ fn area_table(report: &SiliconReport) -> ReportTable {
         rows.push(area_row(report, "shared logic", 1, report.shared));
     }
     rows.push(area_row(report, "array", 1, report.array));
-    ReportTable {
-        title: format!("Cells of {}{volts}", report.library.name),
-        header: header("module", &COLUMNS),
-        rows,
-        note: Some(format!(
-            "um2: the area of the cells. FF %: the part of it that is flip-flops. gates: the area in NANDs of two \
-             inputs, of {} um2 each.",
-            real_number(report.library.gate_area_um2, 2)
-        )),
-    }
+    let note = format!(
+        "um2: the area of the cells. FF %: the part of it that is flip-flops. gates: the area in NANDs of two \
+         inputs, of {} um2 each.",
+        real_number(report.library.gate_area_um2, 2)
+    );
+    ReportTable::new(COLUMNS, rows)
+        .described(format!("Cells of {}{volts}", report.library.name), Some(note))
 }
 
 fn area_row(report: &SiliconReport, name: &str, count: u64, cells: CellTotals) -> Vec<String> {
@@ -221,21 +192,14 @@ fn area_row(report: &SiliconReport, name: &str, count: u64, cells: CellTotals) -
     ]
 }
 
-fn memory_table(report: &SiliconReport) -> Option<ReportTable> {
-    if report.memories.is_empty() {
-        return None;
-    }
+fn memory_table(report: &SiliconReport) -> ReportTable {
     let limit = grouped(report.memory_limit);
     let without_macros = match report.memory.macros {
         0 => "; no macro holds them, so their area is not in any figure",
         _ => "",
     };
-    Some(ReportTable {
-        title: format!("Memories of more than {limit} bits{without_macros}"),
-        header: header("memory", &MEMORY_COLUMNS),
-        rows: report.memories.iter().map(memory_row).collect(),
-        note: None,
-    })
+    ReportTable::new(MEMORY_COLUMNS, report.memories.iter().map(memory_row))
+        .described(format!("Memories of more than {limit} bits{without_macros}"), None)
 }
 
 fn memory_row(memory: &MemoryFigures) -> Vec<String> {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The files of a comparison.
 
-use foveate_output::tables::{NamedCells, Table, TableCell};
+use foveate_output::tables::{NamedCells, Table, TableCell, named_cells};
 use foveate_tools::StagedFolder;
 
 use super::frame_ranges::frame_ranges;
@@ -43,42 +43,41 @@ fn parquet(table: &Table, name: &'static str) -> Result<Vec<u8>, LinkError> {
 
 fn sender_row(clip: &ClipReport, sender: &SenderReport) -> NamedCells {
     let figures = &sender.figures;
-    let text = |text: Option<&str>| TableCell::Text(text.unwrap_or_default().to_owned());
-    let mut row = named([
-        ("clip", TableCell::Text(clip.name.clone())),
-        ("sender", TableCell::Text(sender.sender.to_owned())),
-        ("equal", text(sender.equal)),
+    let mut row = named_cells([
+        ("clip", clip.name.as_str().into()),
+        ("sender", sender.sender.into()),
+        ("equal", sender.equal.unwrap_or_default().into()),
         ("quantizer", TableCell::Count(sender.quantizer.map(u64::from))),
-        ("found", text(sender.search_result)),
+        ("found", sender.search_result.unwrap_or_default().into()),
     ]);
     row.extend(quality_cells(sender.quality));
-    row.extend(named([
-        ("bytes", TableCell::Count(Some(figures.bytes))),
-        ("bytes_per_second", TableCell::Count(Some(figures.bytes_per_second))),
+    row.extend(named_cells([
+        ("bytes", figures.bytes.into()),
+        ("bytes_per_second", figures.bytes_per_second.into()),
     ]));
     for rates in &figures.windows {
         let name = |what| format!("{what}_{}ms", rates.window_ms);
-        row.push((name("p99"), TableCell::Count(Some(rates.p99))));
-        row.push((name("peak"), TableCell::Count(Some(rates.peak))));
+        row.push((name("p99"), rates.p99.into()));
+        row.push((name("peak"), rates.peak.into()));
     }
-    row.extend(named([
-        ("largest_frame_bytes", TableCell::Count(Some(figures.largest_frame_bytes))),
-        ("decision_ns", TableCell::Count(Some(figures.decision_ns))),
-        ("delivery_median_ns", TableCell::Count(Some(figures.delivery_ns.median))),
-        ("delivery_p99_ns", TableCell::Count(Some(figures.delivery_ns.p99))),
-        ("delivery_longest_ns", TableCell::Count(Some(figures.delivery_ns.longest))),
-        ("buffer_bytes", TableCell::Count(Some(figures.buffer_bytes))),
+    row.extend(named_cells([
+        ("largest_frame_bytes", figures.largest_frame_bytes.into()),
+        ("decision_ns", figures.decision_ns.into()),
+        ("delivery_median_ns", figures.delivery_ns.median.into()),
+        ("delivery_p99_ns", figures.delivery_ns.p99.into()),
+        ("delivery_longest_ns", figures.delivery_ns.longest.into()),
+        ("buffer_bytes", figures.buffer_bytes.into()),
         ("overloaded", TableCell::Flag(figures.overloaded)),
     ]));
     row.extend(unbuffered_cells(sender.unbuffered.as_ref()));
-    row.extend(named([("design", TableCell::Text(clip.design.clone()))]));
+    row.extend(named_cells([("design", clip.design.as_str().into())]));
     row
 }
 
 /// Returns the figures without a buffer, which are empty for all senders but a raster core.
 fn unbuffered_cells(figures: Option<&UnbufferedFigures>) -> NamedCells {
     let frames = figures.map(|figures| frame_ranges(&figures.frames_with_losses));
-    named([
+    named_cells([
         ("unbuffered_clock_hz", TableCell::Count(figures.map(|figures| figures.clock_hz))),
         ("unbuffered_lost_regions", TableCell::Count(figures.map(|figures| figures.lost_regions))),
         ("unbuffered_frames_with_losses", TableCell::Text(frames.unwrap_or_default())),
@@ -87,24 +86,20 @@ fn unbuffered_cells(figures: Option<&UnbufferedFigures>) -> NamedCells {
 }
 
 fn point_row(clip: &ClipReport, point: &CurvePoint) -> NamedCells {
-    let mut row = named([
-        ("clip", TableCell::Text(clip.name.clone())),
-        ("sender", TableCell::Text(point.sender.to_owned())),
-        ("knob", TableCell::Text(point.setting.to_owned())),
-        ("value", TableCell::Count(Some(point.value))),
-        ("bytes_per_second", TableCell::Count(Some(point.bytes_per_second))),
+    let mut row = named_cells([
+        ("clip", clip.name.as_str().into()),
+        ("sender", point.sender.into()),
+        ("knob", point.setting.into()),
+        ("value", point.value.into()),
+        ("bytes_per_second", point.bytes_per_second.into()),
     ]);
     row.extend(quality_cells(Some(point.quality)));
     row
 }
 
 fn quality_cells(quality: Option<Quality>) -> NamedCells {
-    named([
+    named_cells([
         ("psnr", TableCell::Real(quality.and_then(|quality| quality.psnr))),
         ("ssim", TableCell::Real(quality.map(|quality| quality.ssim))),
     ])
-}
-
-fn named<const N: usize>(cells: [(&str, TableCell); N]) -> NamedCells {
-    cells.map(|(name, cell)| (name.to_owned(), cell)).into()
 }

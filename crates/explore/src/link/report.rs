@@ -8,9 +8,9 @@
 use crate::link::{LinkFigures, Quality, UnbufferedFigures};
 use foveate_design::Design;
 use foveate_output::chart::{Chart, ChartData, ChartSeries, LineLook};
+use foveate_output::report::{Report, ReportPart, ReportTable};
 use foveate_timed::Transaction;
 use serde::Serialize;
-use std::fmt::Write as _;
 
 /// The version of the JSON format; it changes if a key changes its meaning or is removed.
 pub(crate) const FORMAT_VERSION: u32 = 3;
@@ -214,31 +214,26 @@ impl LinkReport {
     /// Returns a table per clip. The rates of windows are in kB/s.
     #[must_use]
     pub fn markdown(&self) -> String {
-        let mut text = String::new();
-        for (number, clip) in self.clips.iter().enumerate() {
-            let _ = write!(
-                text,
-                "{}{}: {} frames of {} x {} pixels in {} ms, link {} kB/s{}\n\n{}\n\n",
-                if number == 0 { "" } else { "\n" },
-                clip.name,
-                clip.frames,
-                clip.width,
-                clip.height,
-                clip.duration_ns / 1_000_000,
-                thousands_text(self.link_bits_per_second / 8),
-                if clip.problem.is_some() { ", NOT COMPLETE" } else { "" },
-                self.clock(clip),
-            );
-            let _ = writeln!(text, "| {} |", COLUMNS.join(" | "));
-            let _ = writeln!(text, "| --- | --- |{}", " ---: |".repeat(COLUMNS.len() - 2));
-            for sender in &clip.senders {
-                let _ = writeln!(text, "| {} |", row(clip, sender).join(" | "));
-            }
-            for figures in clip.senders.iter().filter_map(|sender| sender.unbuffered.as_ref()) {
-                let _ = writeln!(text, "\n{}", unbuffered_text(clip, figures));
-            }
-        }
-        text
+        Report(self.clips.iter().flat_map(|clip| self.clip_parts(clip)).collect()).markdown()
+    }
+
+    fn clip_parts(&self, clip: &ClipReport) -> [ReportPart; 3] {
+        let heading = format!(
+            "{}: {} frames of {} x {} pixels in {} ms, link {} kB/s{}",
+            clip.name,
+            clip.frames,
+            clip.width,
+            clip.height,
+            clip.duration_ns / 1_000_000,
+            thousands_text(self.link_bits_per_second / 8),
+            if clip.problem.is_some() { ", NOT COMPLETE" } else { "" },
+        );
+        let unbuffered = clip.senders.iter().filter_map(|sender| sender.unbuffered.as_ref());
+        let notes = unbuffered.map(|figures| unbuffered_text(clip, figures)).collect();
+        let rows = clip.senders.iter().map(|sender| row(clip, sender));
+        let table = ReportTable { words: 2, notes, ..ReportTable::new(COLUMNS, rows) };
+        let [heading, clock] = [heading, self.clock(clip)].map(ReportPart::Paragraph);
+        [heading, clock, ReportPart::Table(table)]
     }
 
     /// Describes the clock of the array, or the clocks that are left out without one.

@@ -3,9 +3,9 @@
 
 use foveate_estimate::ramb36;
 use foveate_output::number_text::{grouped, percent, real_number};
+use foveate_output::page::TableCell;
 
 use super::setting::PointSettings;
-use super::table::psnr_cell;
 use crate::objective::Objective;
 use crate::{DesignRow, ProcessFigures};
 
@@ -41,7 +41,7 @@ impl PointCard {
                 "PSNR and SSIM to the input",
                 format!(
                     "{} dB, {}",
-                    psnr_cell(figures.psnr_input).text,
+                    TableCell::psnr(figures.psnr_input).text,
                     real_number(figures.ssim_input, 4)
                 ),
             ),

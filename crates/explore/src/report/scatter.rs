@@ -129,17 +129,7 @@ impl ScatterPlot {
         marks.sort_by_key(|mark| mark.front);
         stack_marks(&mut marks);
         let path = front_path(&steps, self.x.is_low_better(), self.y.is_low_better());
-        let logarithmic = |axis: PlotAxis, measure: &ObjectiveAxis| {
-            let scale = if axis.is_logarithmic() { " (log)" } else { "" };
-            format!("{}{scale}", measure.title)
-        };
         PagePlot {
-            id: self.id.to_owned(),
-            title: self.title.to_owned(),
-            x_title: logarithmic(field.x, &self.x),
-            y_title: logarithmic(field.y, &self.y),
-            x_ticks: field.x_ticks(),
-            y_ticks: field.y_ticks(),
             lines: vec![PlotLine {
                 path,
                 class: "front".to_owned(),
@@ -148,7 +138,7 @@ impl ScatterPlot {
             }],
             marks,
             by_axis: true,
-            ..PagePlot::default()
+            ..PagePlot::new(self.id, self.title, &field, [&self.x.title, &self.y.title])
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::link::LinkRate;
 use crate::row::{count_to_f64, load_cells, point_cells, process_cells};
 use crate::{DesignRow, Exploration};
 use foveate_output::number_text::{MISSING, counted, grouped, percent, real_number};
-use foveate_output::page::{HeadingFigure, TableCell, TableColumn, TableRow};
+use foveate_output::page::{HeadingFigure, SortableTable, TableCell, TableColumn, TableRow};
 use foveate_output::tables::{NamedCells, TableCell as FileCell};
 use std::collections::HashMap;
 
@@ -49,7 +49,7 @@ impl FigureColumn {
     fn cell(&self, figures: &PointFigures) -> TableCell {
         let (value, form) = (self.value(figures), self.form);
         let Some(number) = value.filter(|_| form != "decibels") else {
-            return if form == "decibels" { psnr_cell(value) } else { TableCell::missing() };
+            return if form == "decibels" { TableCell::psnr(value) } else { TableCell::missing() };
         };
         let text = match (form, figures.get("worst_clip")) {
             ("on_clip", Some(FileCell::Text(clip))) => {
@@ -65,11 +65,12 @@ impl FigureColumn {
     }
 }
 
-/// Returns the headings after the number, and the rows. A figure that no point has is left out.
-pub(crate) fn columns_and_rows(
+/// Returns the table of the points, with the texts of their marks. A figure that no point has is left out.
+pub(crate) fn point_table(
     settings: &PointSettings,
     rows: &[&DesignRow],
-) -> (Vec<TableColumn>, Vec<TableRow>) {
+    titles: &[String],
+) -> SortableTable {
     let figures: Vec<PointFigures> = rows.iter().map(|row| figures_of(row)).collect();
     let is_shown = |column: &FigureColumn| {
         column.form == "decibels" || figures.iter().any(|one| column.value(one).is_some())
@@ -86,15 +87,23 @@ pub(crate) fn columns_and_rows(
     } else {
         settings.names.iter().zip(&settings.keys).map(|(name, key)| axis(name, key)).collect()
     };
-    let row = |(row, figures): (&&DesignRow, &PointFigures)| {
+    let row = |((row, figures), title): ((&&DesignRow, &PointFigures), &String)| {
         let mut cells = setting_cells(settings, row);
         cells.extend(shown.iter().map(|column| column.cell(figures)));
         let (id, number) = (row.number.to_string(), row.number as u64);
-        TableRow { id, number, best: row.front.any(), cells }
+        TableRow { id, number, best: row.front.any(), cells, mark_title: title.clone() }
     };
-    let rows = rows.iter().zip(&figures).map(row).collect();
+    let rows = rows.iter().zip(&figures).zip(titles).map(row).collect();
     columns.extend(shown.into_iter().map(|column| column.heading));
-    (columns, rows)
+    SortableTable {
+        prefix: "p",
+        number: "number of the point",
+        link: "all figures of the point, with its configuration",
+        tall: true,
+        marks_best: true,
+        columns,
+        rows,
+    }
 }
 
 fn setting_cells(settings: &PointSettings, row: &DesignRow) -> Vec<TableCell> {
@@ -115,14 +124,6 @@ fn figures_of(row: &DesignRow) -> PointFigures {
     let all: [NamedCells; 3] =
         [point_cells(row, &[]), process_cells(row), load_cells(row.load.as_ref())];
     all.into_iter().flatten().collect()
-}
-
-/// Formats a PSNR. Equal frames have no PSNR and are the best.
-pub(crate) fn psnr_cell(psnr: Option<f64>) -> TableCell {
-    match psnr {
-        Some(psnr) => TableCell::number(real_number(psnr, 1), Some(psnr)),
-        None => TableCell { text: "=".to_owned(), sort: "1e9".to_owned(), class: "number" },
-    }
 }
 
 /// Returns the title of the page.

@@ -5,9 +5,7 @@ use std::collections::BTreeMap;
 
 use foveate_output::{
     number_text::percent,
-    page::{
-        PagePlot, PlotAxes, PlotAxis, PlotLine, PlotMark, coordinate_text, group_look, line_path,
-    },
+    page::{PagePlot, PlotAxes, PlotAxis, PlotMark},
 };
 
 use super::scatter::stack_marks;
@@ -67,15 +65,12 @@ fn plot(
     let ys = points().map(|(_, row, _)| active(row)).chain(ideals.iter().copied());
     let field = PlotAxes { x: PlotAxis::with_free_start(xs), y: PlotAxis::starting_at_zero(ys) };
     let name = &settings.names[axis];
-    let mut plot = PagePlot {
-        id: format!("threshold-{axis}"),
-        title: format!("Active regions against {name}"),
-        x_title: title(&settings.keys[axis], field.x),
-        y_title: title("active area, %", field.y),
-        x_ticks: field.x_ticks(),
-        y_ticks: field.y_ticks(),
-        ..PagePlot::default()
-    };
+    let mut plot = PagePlot::new(
+        format!("threshold-{axis}"),
+        format!("Active regions against {name}"),
+        &field,
+        [&settings.keys[axis], "active area, %"],
+    );
     let label = |ideal: f64| format!("ideal camera, {} %", percent(ideal / 100.0));
     plot.horizontal_rules =
         ideals.iter().take(3).filter_map(|y| field.horizontal_line(*y, label(*y))).collect();
@@ -88,37 +83,16 @@ fn plot(
             "{MAX_LINES} of {all} lines are shown: their other settings are nearest to the ideal's."
         );
     }
-    for (index, sweep) in sweeps.iter().enumerate() {
-        let (class, shape) = group_look(index);
-        let mut places = Vec::new();
-        for (x, row, of_row) in &sweep.points {
-            let Some(place) = field.coordinates(*x, active(row)) else { continue };
-            places.push(place);
-            plot.marks.push(PlotMark {
-                id: row.number.to_string(),
-                x: coordinate_text(place.0),
-                y: coordinate_text(place.1),
-                hollow: !row.qualifies(),
-                class: class.clone(),
-                shape,
-                title: titles[*of_row].clone(),
-                ..PlotMark::default()
-            });
-        }
-        let class = if index % 2 == 1 { class + " dashed" } else { class };
-        plot.lines.push(PlotLine {
-            path: line_path(&places),
-            class,
-            shape,
-            label: sweep.label.clone(),
+    for sweep in &sweeps {
+        let points = sweep.points.iter().map(|(x, row, of_row)| {
+            let (id, title) = (row.number.to_string(), titles[*of_row].clone());
+            let mark = PlotMark { id, hollow: !row.qualifies(), title, ..PlotMark::default() };
+            (*x, active(row), mark)
         });
+        plot.push_line(&field, sweep.label.clone(), true, points);
     }
     stack_marks(&mut plot.marks);
     Some(plot)
-}
-
-fn title(text: &str, axis: PlotAxis) -> String {
-    format!("{text}{}", if axis.is_logarithmic() { " (log)" } else { "" })
 }
 
 /// Returns the lines of an axis, without single points.

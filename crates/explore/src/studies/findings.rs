@@ -2,17 +2,17 @@
 //! The findings of a study: a table and charts, with notes about their origin.
 
 use foveate_output::chart::Chart;
+use foveate_output::report::ReportTable;
 
 use crate::studies::runner::ClipResult;
 use crate::studies::study::Study;
-use crate::studies::table::StudyTable;
 
 pub(crate) struct StudyFindings {
-    pub(crate) table: StudyTable,
+    pub(crate) table: ReportTable,
     /// A smaller table, which is printed if the table is too large.
-    pub(crate) printed: Option<StudyTable>,
+    pub(crate) printed: Option<ReportTable>,
     /// Further tables, each with the suffix that follows the study's name in its file name.
-    pub(crate) further_tables: Vec<(&'static str, StudyTable)>,
+    pub(crate) further_tables: Vec<(&'static str, ReportTable)>,
     pub(crate) charts: Vec<Chart>,
     pub(crate) notes: Vec<String>,
     pub(crate) problems: Vec<String>,
@@ -20,7 +20,11 @@ pub(crate) struct StudyFindings {
 
 impl StudyFindings {
     /// Creates findings with notes on the clips.
-    pub(crate) fn new<T, G>(study: Study, watched: &[ClipResult<T, G>], table: StudyTable) -> Self {
+    pub(crate) fn new<T, G>(
+        study: Study,
+        watched: &[ClipResult<T, G>],
+        table: ReportTable,
+    ) -> Self {
         let version = env!("CARGO_PKG_VERSION");
         let mut notes = vec![format!("foveate {version} analyze {}", study.name())];
         let mut problems = Vec::new();

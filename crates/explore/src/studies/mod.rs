@@ -14,7 +14,6 @@ mod rank;
 mod report;
 mod runner;
 mod study;
-mod table;
 mod tally;
 
 pub use error::StudyError;

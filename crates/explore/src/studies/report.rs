@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The run of a study: it takes a request and writes a folder.
 
+use foveate_output::report::ReportTable;
 use std::path::{Path, PathBuf};
 
 use foveate_design::DesignConfig;
@@ -14,7 +15,6 @@ use crate::studies::runner::StudyRunner;
 use crate::studies::study::{
     Study, activity, histogram, recall, redundancy, sensor, sweep, temporal,
 };
-use crate::studies::table::StudyTable;
 
 /// The request of a study.
 #[derive(Clone, Debug)]
@@ -48,21 +48,22 @@ pub struct StudyReport {
     /// The names of the files.
     pub files: Vec<String>,
     /// The columns of the table.
-    pub columns: Vec<&'static str>,
+    pub columns: Vec<String>,
     /// The rows of the table.
     pub rows: Vec<Vec<String>>,
     /// The clips that ended early, with the reasons.
     pub problems: Vec<String>,
     /// A smaller table, which is printed if the table is too large.
     #[serde(skip)]
-    printed: Option<StudyTable>,
+    printed: Option<ReportTable>,
 }
 
 impl StudyReport {
     /// Returns the table as Markdown, or the smaller table if the table is too large.
     #[must_use]
     pub fn markdown(&self) -> String {
-        let whole = || StudyTable { columns: self.columns.clone(), rows: self.rows.clone() };
+        let (columns, rows) = (self.columns.clone(), self.rows.clone());
+        let whole = || ReportTable { rows, ..ReportTable::of_words(columns) };
         self.printed.clone().unwrap_or_else(whole).markdown()
     }
 }
@@ -104,16 +105,15 @@ pub fn analyze(
         }
     }
     staging.commit()?;
-    let StudyFindings { table: StudyTable { columns, rows }, printed: shown, problems, .. } =
-        findings;
+    let StudyFindings { table, printed, problems, .. } = findings;
     Ok(StudyReport {
         study: study.name(),
         luma: request.input.luma.name(),
         files,
-        columns,
-        rows,
+        columns: table.header,
+        rows: table.rows,
         problems,
-        printed: shown,
+        printed,
     })
 }
 

@@ -15,69 +15,43 @@ use foveate_output::{
     number_text::real_number,
     page::{SortableTable, TableCell, TableColumn, TableRow},
 };
-use std::collections::BTreeMap;
-
-pub(super) struct TableRows {
-    columns: Vec<TableColumn>,
-    rows: Vec<TableRow>,
-    titles: Vec<String>,
-}
 
 /// A row: its id, its number, its content, whether the content has counted frames, and the text of
 /// its mark.
 type RowContent<T> = (String, u64, T, bool, String);
 
-impl TableRows {
-    /// Creates a table of the columns with these keys, in this order.
-    fn new<'a, T: 'a>(
-        facts: &[Fact<T>],
-        keys: &[&str],
-        of: impl Iterator<Item = RowContent<&'a T>>,
-    ) -> Self {
-        let named = |key: &&str| facts.iter().find(|fact| fact.heading.key == *key);
-        let facts: Vec<_> =
-            keys.iter().map(|key| named(key).expect("a column of the list")).collect();
-        let column = |fact: &&Fact<T>| TableColumn {
-            name: fact.heading.name.to_owned(),
-            unit: fact.heading.unit,
-            title: fact.heading.meaning.to_owned(),
-            numbers: fact.numbers,
+/// Creates a table of the columns with these keys, in this order. `number` is the meaning of the
+/// numbers of its rows.
+fn table<'a, T: 'a>(
+    number: &'static str,
+    facts: &[Fact<T>],
+    keys: &[&str],
+    rows: impl Iterator<Item = RowContent<&'a T>>,
+) -> SortableTable {
+    let named = |key: &&str| facts.iter().find(|fact| fact.heading.key == *key);
+    let facts: Vec<_> = keys.iter().map(|key| named(key).expect("a column of the list")).collect();
+    let column = |fact: &&Fact<T>| TableColumn {
+        name: fact.heading.name.to_owned(),
+        unit: fact.heading.unit,
+        title: fact.heading.meaning.to_owned(),
+        numbers: fact.numbers,
+    };
+    let row = |(id, number, of, is_counted, mark_title): RowContent<&T>| {
+        // Without a counted frame there are no shares.
+        let is_told = |fact: &Fact<T>| is_counted || !fact.is_mean;
+        let cell = |fact: &&Fact<T>| {
+            if is_told(fact) { cell((fact.value)(of)) } else { TableCell::missing() }
         };
-        let mut rows =
-            Self { columns: facts.iter().map(column).collect(), rows: vec![], titles: vec![] };
-        for (id, number, of, is_counted, title) in of {
-            // Without a counted frame there are no shares.
-            let is_told = |fact: &Fact<T>| is_counted || !fact.is_mean;
-            let cell = |fact: &&Fact<T>| {
-                if is_told(fact) { cell((fact.value)(of)) } else { TableCell::missing() }
-            };
-            rows.rows.push(TableRow {
-                id,
-                number,
-                best: false,
-                cells: facts.iter().map(cell).collect(),
-            });
-            rows.titles.push(title);
-        }
-        rows
-    }
-
-    /// Returns the texts of all marks by id.
-    pub(super) fn titles(&self) -> BTreeMap<&str, &str> {
-        self.rows.iter().zip(&self.titles).map(|(row, title)| (&row.id[..], &title[..])).collect()
-    }
-
-    pub(super) fn table(&self, number: &'static str) -> SortableTable<'_> {
-        let rows = self.rows.iter().collect();
-        SortableTable {
-            prefix: "p",
-            number,
-            link: "",
-            tall: true,
-            marks_best: false,
-            columns: &self.columns,
-            rows,
-        }
+        TableRow { id, number, best: false, cells: facts.iter().map(cell).collect(), mark_title }
+    };
+    SortableTable {
+        prefix: "p",
+        number,
+        link: "",
+        tall: true,
+        marks_best: false,
+        columns: facts.iter().map(column).collect(),
+        rows: rows.map(row).collect(),
     }
 }
 
@@ -102,23 +76,19 @@ fn cell(value: FigureValue) -> TableCell {
         }
         FigureValue::Error(value) => number(value, error_text),
         FigureValue::Limit(value) => number(value, limit_text),
-        // Equal outputs are the best.
-        FigureValue::Psnr(None) => {
-            TableCell { text: "=".to_owned(), sort: "1e9".to_owned(), class: "number" }
-        }
-        FigureValue::Psnr(psnr) => cell(FigureValue::Real(psnr, 1)),
+        FigureValue::Psnr(psnr) => TableCell::psnr(psnr),
     }
 }
 
-pub(super) fn clips(summary: &InferenceSummary) -> TableRows {
+pub(super) fn clips(summary: &InferenceSummary) -> SortableTable {
     let keys = ["clip", "frames", "counted", "active", "changed", "needed", "computed", "problem"];
     let rows = (0..).zip(&summary.clips).map(|(number, clip)| {
         (format!("c{number}"), number, clip, clip.counted_frames > 0, String::new())
     });
-    TableRows::new(CLIPS, &keys, rows)
+    table("number of the clip", CLIPS, &keys, rows)
 }
 
-pub(super) fn layers(summary: &InferenceSummary) -> TableRows {
+pub(super) fn layers(summary: &InferenceSummary) -> SortableTable {
     let mut keys = vec!["name", "operator", "shape", "macs"];
     keys.extend(["needed_share", "scheduled_share", "changed_share"]);
     keys.extend(["weight_bytes", "output_bytes", "seconds"]);
@@ -135,7 +105,7 @@ pub(super) fn layers(summary: &InferenceSummary) -> TableRows {
         let title = layer_title(number, layer);
         (layer_id(number), number as u64, layer, summary.counted_frames > 0, title)
     };
-    TableRows::new(LAYERS, &keys, summary.layers.iter().enumerate().map(row))
+    table("number of the layer", LAYERS, &keys, summary.layers.iter().enumerate().map(row))
 }
 
 fn layer_title(number: usize, layer: &LayerSummary) -> String {
@@ -171,7 +141,7 @@ fn layer_title(number: usize, layer: &LayerSummary) -> String {
 }
 
 /// Returns a row per frame that is shown.
-pub(super) fn frames(frames: &[&FrameFigures], summary: &InferenceSummary) -> TableRows {
+pub(super) fn frames(frames: &[&FrameFigures], summary: &InferenceSummary) -> SortableTable {
     let (compared, several) = (summary.error.is_some(), summary.clips.len() > 1);
     let mut keys = if several { vec!["clip"] } else { Vec::new() };
     keys.extend(["name", "active_share", "changed_share", "needed_share", "scheduled_share"]);
@@ -201,11 +171,11 @@ pub(super) fn frames(frames: &[&FrameFigures], summary: &InferenceSummary) -> Ta
         );
         (frame_id(frame.index_in_run), frame.number, frame, true, title)
     });
-    TableRows::new(FRAMES, &keys, rows)
+    table("number of the frame", FRAMES, &keys, rows)
 }
 
 /// Returns a row per trial of tuning.
-pub(super) fn trials(summary: &InferenceSummary) -> TableRows {
+pub(super) fn trials(summary: &InferenceSummary) -> SortableTable {
     let mut keys = vec!["limits", "relative_limit", "needed_share", "rms_of_variation"];
     keys.extend(["relative_rms", "largest", "agreement", "cosine", "psnr", "holds"]);
     let all = summary.tuning.as_ref().map(charts::trials_with_ids).unwrap_or_default();
@@ -226,7 +196,7 @@ pub(super) fn trials(summary: &InferenceSummary) -> TableRows {
         );
         (id.clone(), number, attempt, true, title)
     });
-    TableRows::new(TRIALS, &keys, rows)
+    table("number of the run", TRIALS, &keys, rows)
 }
 
 fn goal_text(holds: bool) -> &'static str {

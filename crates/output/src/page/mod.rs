@@ -15,7 +15,6 @@ pub use document::{
     group_look,
 };
 pub use plot::{
-    AxisPosition, PagePlot, PlotAxes, PlotLine, PlotMark, coordinate_text, front_path, line_path,
-    nest_marks,
+    AxisPosition, PagePlot, PlotAxes, PlotLine, PlotMark, coordinate_text, front_path, nest_marks,
 };
 pub use table::{SortableTable, TableCell, TableColumn, TableRow};

@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use askama::Template;
 
 use super::axis::{AxisTick, PlotAxis};
+use super::document::group_look;
 
 /// The edges of the frame inside a picture of 560 by 380; the template has the same numbers.
 const LEFT: f64 = 78.0;
@@ -44,6 +45,55 @@ pub struct PagePlot {
     pub marks: Vec<PlotMark>,
     /// True if the colours depend on the chosen axis; otherwise they are those of the lines.
     pub by_axis: bool,
+}
+
+impl PagePlot {
+    /// Makes an empty plot with these axes and their titles, which say if an axis is logarithmic.
+    #[must_use]
+    pub fn new(
+        id: impl Into<String>,
+        title: impl Into<String>,
+        axes: &PlotAxes,
+        [x_title, y_title]: [&str; 2],
+    ) -> Self {
+        let titled = |title: &str, axis: PlotAxis| {
+            title.to_owned() + if axis.is_logarithmic() { " (log)" } else { "" }
+        };
+        Self {
+            id: id.into(),
+            title: title.into(),
+            x_title: titled(x_title, axes.x),
+            y_title: titled(y_title, axes.y),
+            x_ticks: axes.x_ticks(),
+            y_ticks: axes.y_ticks(),
+            ..Self::default()
+        }
+    }
+
+    /// Adds a line through points with their marks, which get the position, the colour and the shape
+    /// of the line. A point that cannot be shown is left out. Only the marks of a line that is not
+    /// joined are drawn.
+    pub fn push_line(
+        &mut self,
+        axes: &PlotAxes,
+        label: String,
+        is_joined: bool,
+        points: impl IntoIterator<Item = (f64, f64, PlotMark)>,
+    ) {
+        let index = self.lines.len();
+        let (class, shape) = group_look(index);
+        let mut places = Vec::new();
+        for (x, y, mark) in points {
+            let Some((x, y)) = axes.coordinates(x, y) else { continue };
+            places.push((x, y));
+            let (x, y) = (coordinate_text(x), coordinate_text(y));
+            self.marks.push(PlotMark { x, y, class: class.clone(), shape, ..mark });
+        }
+        // Every second line is dashed, so that a line below it shows through its gaps.
+        let class = if is_joined && index % 2 == 1 { class + " dashed" } else { class };
+        let path = if is_joined { line_path(&places) } else { String::new() };
+        self.lines.push(PlotLine { path, class, shape, label });
+    }
 }
 
 /// A position along an axis.
@@ -193,8 +243,7 @@ fn spaced_ticks(
 }
 
 /// Returns the path of a line through points.
-#[must_use]
-pub fn line_path(places: &[(f64, f64)]) -> String {
+fn line_path(places: &[(f64, f64)]) -> String {
     let steps = places.iter().enumerate().map(|(index, (x, y))| {
         let letter = if index == 0 { 'M' } else { 'L' };
         format!("{letter}{} {}", coordinate_text(*x), coordinate_text(*y))

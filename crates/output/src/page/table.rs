@@ -3,7 +3,7 @@
 
 use askama::Template;
 
-use crate::number_text::{MISSING, grouped, percent};
+use crate::number_text::{MISSING, grouped, percent, real_number};
 
 /// A column of a table.
 #[derive(Clone, Debug)]
@@ -56,6 +56,15 @@ impl TableCell {
         Self::number(grouped(value), Some(value as f64))
     }
 
+    /// Makes a cell of a PSNR in decibels. Equal frames have no PSNR and are the best.
+    #[must_use]
+    pub fn psnr(psnr: Option<f64>) -> Self {
+        match psnr {
+            Some(psnr) => Self::number(real_number(psnr, 1), Some(psnr)),
+            None => Self { text: "=".to_owned(), sort: "1e9".to_owned(), class: "number" },
+        }
+    }
+
     /// Makes a cell without a number.
     #[must_use]
     pub fn missing() -> Self {
@@ -74,12 +83,14 @@ pub struct TableRow {
     pub best: bool,
     /// The cells after the number, one for each column.
     pub cells: Vec<TableCell>,
+    /// The text of the marks of this row in plots.
+    pub mark_title: String,
 }
 
 /// A table of rows.
 #[derive(Debug, Template)]
 #[template(path = "table.html")]
-pub struct SortableTable<'a> {
+pub struct SortableTable {
     /// The prefix of the ids of its rows, which distinguishes them from those of other tables;
     /// marks link to the prefix `p`.
     pub prefix: &'static str,
@@ -93,7 +104,7 @@ pub struct SortableTable<'a> {
     /// True if highlighted rows are drawn as such.
     pub marks_best: bool,
     /// The columns after the number.
-    pub columns: &'a [TableColumn],
+    pub columns: Vec<TableColumn>,
     /// The rows.
-    pub rows: Vec<&'a TableRow>,
+    pub rows: Vec<TableRow>,
 }

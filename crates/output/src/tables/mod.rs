@@ -7,5 +7,5 @@ mod table;
 mod value;
 
 pub use self::parquet::ParquetWriter;
-pub use table::{NamedCells, Table, TableCell, csv_text, escape_name};
+pub use table::{NamedCells, Table, TableCell, csv_text, escape_name, named_cells};
 pub use value::{Column, ColumnType, TableValue};

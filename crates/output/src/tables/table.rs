@@ -19,6 +19,24 @@ pub enum TableCell {
     Flag(bool),
 }
 
+impl From<u64> for TableCell {
+    fn from(count: u64) -> Self {
+        Self::Count(Some(count))
+    }
+}
+
+impl From<f64> for TableCell {
+    fn from(value: f64) -> Self {
+        Self::Real(Some(value))
+    }
+}
+
+impl From<&str> for TableCell {
+    fn from(text: &str) -> Self {
+        Self::Text(text.to_owned())
+    }
+}
+
 /// A table of named columns, stored row by row.
 #[derive(Clone, Debug, Default)]
 pub struct Table {
@@ -32,6 +50,12 @@ pub struct Table {
 
 /// The cells of a row with their column names.
 pub type NamedCells = Vec<(String, TableCell)>;
+
+/// Names the cells of a row, or of a part of it.
+#[must_use]
+pub fn named_cells<const N: usize>(cells: [(&str, TableCell); N]) -> NamedCells {
+    cells.map(|(name, cell)| (name.to_owned(), cell)).into()
+}
 
 impl Table {
     /// Makes a table from rows that have the same columns. If there may be no rows,
@@ -149,13 +173,12 @@ mod tests {
     use std::io::Write as _;
 
     fn row(name: &str, count: u64) -> NamedCells {
-        let cells = [
-            ("name", TableCell::Text(name.to_owned())),
-            ("count", TableCell::Count(Some(count))),
+        named_cells([
+            ("name", name.into()),
+            ("count", count.into()),
             ("share", TableCell::Real(None)),
             ("holds", TableCell::Flag(true)),
-        ];
-        cells.map(|(name, cell)| (name.to_owned(), cell)).into()
+        ])
     }
 
     #[test]

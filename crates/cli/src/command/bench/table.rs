@@ -2,6 +2,9 @@
 //! The report of a bench as a table: in lines as wide as the terminal, or in Markdown.
 
 use foveate_cosim::{BenchmarkLevel, BenchmarkReport, LevelMeasurement, LevelRow};
+use foveate_output::report::ReportTable;
+
+use crate::output::paragraph;
 
 const HEADINGS: [&str; 7] = ["frames", "clocks", "pixels", "x RTL", "memory", "build", "differ"];
 /// The number of leading headings that count per second.
@@ -27,32 +30,27 @@ pub(super) fn text(report: &BenchmarkReport, width: usize) -> String {
                 let pairs: Vec<_> = pairs.map(|(name, cell)| format!("{name} {cell}")).collect();
                 let (rates, rest) = pairs.split_at(RATE_COLUMNS);
                 let (rates, rest) = (rates.join(", "), rest.join(", "));
-                wrapped(&format!("{title}: per second {rates}; {rest}"), width)
+                paragraph(&format!("{title}: per second {rates}; {rest}"), width)
             }
-            (None, why) => wrapped(&format!("{title}: {}", why.as_deref().unwrap_or("")), width),
+            (None, why) => paragraph(&format!("{title}: {}", why.as_deref().unwrap_or("")), width),
         };
     }
     text.push('\n');
     for note in notes(report) {
-        text += &wrapped(&note, width);
+        text += &paragraph(&note, width);
     }
     text
 }
 
 pub(super) fn markdown(report: &BenchmarkReport) -> String {
-    let mut text = format!("| per second: | {} |\n|{}\n", HEADINGS.join(" | "), " --- |".repeat(8));
-    for row in &report.rows {
-        let cells = row.measured.as_ref().map_or_else(
-            || vec![row.missing.clone().unwrap_or_default(); 1],
-            |measured| cells(measured).to_vec(),
-        );
-        text += &format!("| {} | {} |\n", row_title(row), cells.join(" | "));
-    }
-    text.push('\n');
-    for note in notes(report) {
-        text += &format!("{note}\n");
-    }
-    text
+    let mut table = ReportTable::of_words(std::iter::once("per second:").chain(HEADINGS));
+    table.rows.extend(report.rows.iter().map(|row| {
+        let missing = || vec![row.missing.clone().unwrap_or_default()];
+        let cells = row.measured.as_ref().map_or_else(missing, |found| cells(found).to_vec());
+        std::iter::once(row_title(row)).chain(cells).collect()
+    }));
+    table.notes.push(notes(report).join("\n"));
+    table.markdown()
 }
 
 fn row_title(row: &LevelRow) -> String {
@@ -137,10 +135,6 @@ fn line(first: &str, cells: &[String; 7]) -> String {
         line += &format!("{cell:>OTHER_COLUMN_WIDTH$}");
     }
     line + "\n"
-}
-
-fn wrapped(text: &str, width: usize) -> String {
-    textwrap::fill(text, textwrap::Options::new(width).subsequent_indent("  ")) + "\n"
 }
 
 /// Returns a number with three digits and the prefix of its unit.

@@ -27,11 +27,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<(), CliError> {
         }
     };
     let card = DesignCard::from_design(&design, args.clock, args.min_fps, load)?;
-    if args.json {
-        output::print_json(&card)?;
-    } else if !args.quiet {
-        output::print_text(&text(&design, &card))?;
-    }
+    output::print_result((args.json, args.quiet), &card, || text(&design, &card))?;
     let rate = card.proposal.filter(|proposal| !proposal.reached).map(|proposal| proposal.text);
     let failures = rate.into_iter().chain(card.clip.iter().flat_map(clip::failures));
     let failures: Vec<String> = failures.collect();

@@ -4,57 +4,41 @@
 use foveate_cosim::CosimReport;
 
 use super::CosimOutput;
+use super::end_to_end::EndToEndReport;
 
 /// Returns the text in lines of at most `width` columns; longer words are not broken.
 pub(super) fn summary_text(told: &CosimOutput<'_>, width: usize) -> String {
     let CosimOutput { summary, end_to_end } = told;
-    let mut text = String::new();
+    // Paragraphs, each with its indent.
+    let mut all = Vec::new();
     for report in &summary.runs {
-        push_paragraph(&mut text, &report.to_string(), "", width);
+        all.push(("", report.to_string()));
         if let Some(mismatch) = &report.mismatch {
-            push_paragraph(
-                &mut text,
-                "ports that differ before the end of the sequence, each with its first clock:",
-                "  ",
-                width,
-            );
-            for port in &mismatch.ports {
-                push_paragraph(&mut text, &port.to_string(), "    ", width);
-            }
+            let heading =
+                "ports that differ before the end of the sequence, each with its first clock:";
+            all.push(("  ", heading.to_owned()));
+            all.extend(mismatch.ports.iter().map(|port| ("    ", port.to_string())));
         }
-        push_paragraph(&mut text, &run_line(report), "  ", width);
-        if let Some(replay) = &report.replay {
-            let script = replay.join("replay.sh");
-            push_paragraph(&mut text, &format!("replay it with {}", script.display()), "  ", width);
-        }
-        if let Some(waves) = &report.waves {
-            push_paragraph(&mut text, &format!("waves in {}", waves.display()), "  ", width);
-        }
+        all.push(("  ", run_line(report)));
+        let script = report.replay.as_ref().map(|replay| replay.join("replay.sh"));
+        let replay = script.map(|script| format!("replay it with {}", script.display()));
+        let waves = report.waves.as_ref().map(|waves| format!("waves in {}", waves.display()));
+        all.extend(replay.into_iter().chain(waves).map(|line| ("  ", line)));
     }
     // Situations are counted only without a mismatch, which ends a run before it reaches all of
     // them.
     let all_agree = summary.runs.iter().all(CosimReport::passed);
-    if all_agree && !summary.situations.0.is_empty() {
-        push_paragraph(&mut text, &format!("situations  {}", summary.situations), "", width);
-    }
-    for name in &summary.not_run {
-        push_paragraph(
-            &mut text,
-            &format!("{name}: not run, because of the mismatch above"),
-            "",
-            width,
-        );
-    }
-    for left_out in &summary.not_simulated {
-        push_paragraph(&mut text, &format!("not simulated: {left_out}"), "", width);
-    }
-    for left_out in &summary.not_elaborated {
-        push_paragraph(&mut text, &format!("not elaborated: {left_out}"), "", width);
-    }
-    if let Some(found) = end_to_end {
-        push_paragraph(&mut text, &found.text(), "", width);
-    }
-    text
+    let situations = (all_agree && !summary.situations.0.is_empty())
+        .then(|| format!("situations  {}", summary.situations));
+    let not_run = summary.not_run.iter();
+    let not_run = not_run.map(|name| format!("{name}: not run, because of the mismatch above"));
+    let not_simulated = summary.not_simulated.iter().map(|left| format!("not simulated: {left}"));
+    let not_elaborated =
+        summary.not_elaborated.iter().map(|left| format!("not elaborated: {left}"));
+    let end_to_end = end_to_end.as_ref().map(EndToEndReport::text);
+    let rest = situations.into_iter().chain(not_run).chain(not_simulated);
+    all.extend(rest.chain(not_elaborated).chain(end_to_end).map(|line| ("", line)));
+    all.iter().map(|(indent, text)| paragraph(text, indent, width)).collect()
 }
 
 fn run_line(report: &CosimReport) -> String {
@@ -70,17 +54,14 @@ fn run_line(report: &CosimReport) -> String {
     )
 }
 
-/// Appends a paragraph. Its later lines are indented by two more columns.
-fn push_paragraph(text: &mut String, paragraph: &str, indent: &str, width: usize) {
+/// Returns a paragraph. Its later lines are indented by two more columns.
+fn paragraph(text: &str, indent: &str, width: usize) -> String {
     let further = format!("{indent}  ");
-    for line in paragraph.lines() {
-        // A path or a number is not broken, even if it is longer than the line.
-        let options = textwrap::Options::new(width)
-            .initial_indent(indent)
-            .subsequent_indent(&further)
-            .break_words(false)
-            .word_splitter(textwrap::WordSplitter::NoHyphenation);
-        text.push_str(&textwrap::fill(line, options));
-        text.push('\n');
-    }
+    // A path or a number is not broken, even if it is longer than the line.
+    let options = textwrap::Options::new(width)
+        .initial_indent(indent)
+        .subsequent_indent(&further)
+        .break_words(false)
+        .word_splitter(textwrap::WordSplitter::NoHyphenation);
+    text.lines().map(|line| textwrap::fill(line, &options) + "\n").collect()
 }

@@ -51,13 +51,7 @@ pub(super) fn run(args: &EstimateArgs, flow: &SynthesisTools) -> Result<(), CliE
         }
     }
     progress.finish();
-    if args.json {
-        output::print_json(&comparison)
-    } else if args.markdown {
-        output::print_text(&comparison.markdown())
-    } else {
-        output::print_text(&comparison.text(output::text_width()))
-    }
+    output::print_report((args.json, args.markdown), &comparison, &comparison.table())
 }
 
 /// Returns the rows of the design in each organization, with each of its features without a filter

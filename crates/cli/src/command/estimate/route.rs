@@ -8,7 +8,7 @@ use crate::output;
 use crate::progress::Progress;
 use foveate_design::Design;
 use foveate_emit::Top;
-use foveate_estimate::{RouteJob, place_and_route, render_routes_markdown, render_routes_text};
+use foveate_estimate::{RouteJob, place_and_route};
 
 const NOT_ON_AXI: &str = "--level axi is for a core on AXI; this design has hardware.interface = \"ports\", so set it to \"axi\"";
 
@@ -20,13 +20,7 @@ pub(super) fn run(args: &EstimateArgs, flow: &SynthesisTools) -> Result<(), CliE
     let report = place_and_route(&flow.toolchain, &flow.cache, &job, &args.place_and_route);
     progress.finish();
     let report = report?;
-    if args.json {
-        output::print_json(&report)?;
-    } else if args.markdown {
-        output::print_text(&render_routes_markdown(&report))?;
-    } else {
-        output::print_text(&render_routes_text(&report, output::text_width()))?;
-    }
+    output::print_report((args.json, args.markdown), &report, &report.table())?;
     match report.shortage_sentences().as_slice() {
         [] => Ok(()),
         misfits => Err(CliError::Failed(misfits.join("; "))),

@@ -5,14 +5,10 @@
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
-use foveate_cosim::{
-    EnergyJob, EnergyReport, measure_energy, render_energy_markdown, render_energy_text,
-};
-use foveate_estimate::{
-    SiliconJob, SiliconReport, gate_netlist, map_to_silicon, render_silicon_markdown,
-    render_silicon_text,
-};
+use foveate_cosim::{EnergyJob, EnergyReport, measure_energy};
+use foveate_estimate::{SiliconJob, SiliconReport, gate_netlist, map_to_silicon};
 use foveate_media::InputOptions;
+use foveate_output::report::Report;
 use foveate_tools::{check_file, write_file};
 use serde::Serialize;
 
@@ -101,23 +97,14 @@ fn open_clip(args: &EstimateArgs, clip: &Path, cancel: &AtomicBool) -> Result<En
 }
 
 fn print_reports(args: &EstimateArgs, reports: &[ProcessReport]) -> Result<(), CliError> {
-    if args.json {
-        return match reports {
-            [report] => output::print_json(report),
-            reports => output::print_json(&reports),
-        };
-    }
-    let width = output::text_width();
-    let render = |ProcessReport { silicon, energy }: &ProcessReport| {
-        let energy = energy.as_ref();
-        let (silicon, energy) = match args.markdown {
-            true => (render_silicon_markdown(silicon), energy.map(render_energy_markdown)),
-            false => {
-                let energy = energy.map(|energy| render_energy_text(energy, width));
-                (render_silicon_text(silicon, width), energy)
-            }
-        };
-        std::iter::once(silicon).chain(energy).collect::<Vec<_>>().join("\n")
+    let of_process = |ProcessReport { silicon, energy }: &ProcessReport| {
+        let energy = energy.as_ref().map(EnergyReport::tables);
+        std::iter::once(silicon.tables()).chain(energy).flat_map(|report| report.0)
     };
-    output::print_text(&reports.iter().map(render).collect::<Vec<_>>().join("\n"))
+    let tables = Report(reports.iter().flat_map(of_process).collect());
+    let form = (args.json, args.markdown);
+    match reports {
+        [report] => output::print_report(form, report, &tables),
+        reports => output::print_report(form, &reports, &tables),
+    }
 }

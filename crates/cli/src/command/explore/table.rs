@@ -7,6 +7,7 @@ use std::path::Path;
 
 use foveate_estimate::ramb36;
 use foveate_explore::{DesignRow, Exploration, ProcessEnergy};
+use foveate_output::report::ReportTable;
 use foveate_tools::escaping::shell_word;
 
 /// A column: its name, and the function that writes its cells.
@@ -119,23 +120,16 @@ const PROCESS_NOTE: &str = "unit um2, mm2, nJ/region, mW: in the cells of the pr
 
 pub(super) fn markdown(found: &Exploration) -> String {
     let columns = measured_columns(found);
-    let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
-    let mut text = format!("| | {} |\n|{}\n", names.join(" | "), " --- |".repeat(names.len() + 1));
-    for row in &found.rows {
-        let cells = columns.iter().map(|(_, cell)| cell(row).replace('|', "\\|"));
-        let cells: Vec<String> = cells.collect();
-        let _ = writeln!(
-            text,
-            "| {} | {} |",
-            found.settings_text(row).replace('|', "\\|"),
-            cells.join(" | ")
-        );
-    }
-    let _ = writeln!(text, "\n{NOTE}");
-    if found.library.is_some() {
-        let _ = writeln!(text, "{PROCESS_NOTE}");
-    }
-    text
+    let names = std::iter::once("").chain(columns.iter().map(|(name, _)| *name));
+    let mut table = ReportTable::of_words(names);
+    table.rows.extend(found.rows.iter().map(|row| {
+        let cells = columns.iter().map(|(_, cell)| cell(row));
+        std::iter::once(found.settings_text(row)).chain(cells).collect()
+    }));
+    let note = found.library.is_some().then(|| format!("\n{PROCESS_NOTE}"));
+    table.notes.push(NOTE.to_owned() + &note.unwrap_or_default());
+    // The first heading is one space.
+    table.markdown().replacen("|  |", "| |", 1)
 }
 
 /// Returns a short text: at most eight points of every front with a line that generates each, and

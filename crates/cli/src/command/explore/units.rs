@@ -44,16 +44,7 @@ pub(super) fn run_unit(
         }
         other => other?,
     };
-    if args.json {
-        output::print_json(&done)
-    } else if args.quiet {
-        Ok(())
-    } else {
-        output::print_text(&format!(
-            "{}: {} designs over {}\n",
-            done.file,
-            done.combinations.len(),
-            done.clip
-        ))
-    }
+    output::print_result((args.json, args.quiet), &done, || {
+        format!("{}: {} designs over {}\n", done.file, done.combinations.len(), done.clip)
+    })
 }

@@ -37,22 +37,14 @@ pub(super) fn run_arrays(
     }
     refuse_other_arguments(words, &ARRAY_ARGUMENTS, "with arrays, which bypass the camera")?;
     let summary = infer_arrays(&args.network, &args.inputs, folder, args.force)?;
-    match (args.json, args.quiet) {
-        (true, _) => output::print_json(&summary),
-        (false, false) => output::print_text(&arrays_text(folder, &summary)),
-        (false, true) => Ok(()),
-    }
+    output::print_result((args.json, args.quiet), &summary, || arrays_text(folder, &summary))
 }
 
 /// Checks all nodes of the network.
 pub(super) fn run_check(args: &InferArgs, words: &[OsString]) -> Result<(), CliError> {
     refuse_other_arguments(words, &CHECK_ARGUMENTS, "with --check, which reads no frames")?;
     let checked = check_network(&args.network, args.input.resize.unwrap_or(OPEN_SIZE))?;
-    if args.json {
-        output::print_json(&checked)?;
-    } else {
-        output::print_text(&check_text(&args.network, &checked))?;
-    }
+    output::print_result((args.json, false), &checked, || check_text(&args.network, &checked))?;
     match checked.problems.len() {
         0 => Ok(()),
         count => Err(CliError::Failed(format!(

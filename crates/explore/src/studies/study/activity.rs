@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The active, SRS and TRS shares over time, with one line per clip.
 
+use foveate_output::report::ReportTable;
 use std::slice::from_ref;
 
 use super::{Study, refuse_data_sets};
@@ -10,7 +11,6 @@ use crate::studies::StudyError;
 use crate::studies::findings::StudyFindings;
 use crate::studies::number::{percent, share_text};
 use crate::studies::runner::StudyRunner;
-use crate::studies::table::StudyTable;
 use crate::studies::tally::RegionCounts;
 
 const COLUMNS: [&str; 6] = ["clip", "frame", "t_us", "active_share", "srs_share", "trs_share"];
@@ -32,7 +32,7 @@ pub(crate) fn run(watcher: &StudyRunner<'_>) -> Result<StudyFindings, StudyError
             series.push((seen.time_us, RegionCounts::of_frame(seen)));
         })?;
     refuse_data_sets(Study::Activity, &watched)?;
-    let mut table = StudyTable::new(&COLUMNS);
+    let mut table = ReportTable::of_words(COLUMNS);
     for clip in &watched {
         let series = clip.points.iter().flat_map(|(_, series)| series);
         for (frame, (time_us, regions)) in series.enumerate() {

@@ -5,13 +5,13 @@
 use foveate_camera::{FeatureKind, SpatialConfig};
 use foveate_design::Design;
 use foveate_output::chart::{Chart, ChartData, ChartSeries};
+use foveate_output::report::ReportTable;
 
 use super::Study;
 use crate::studies::StudyError;
 use crate::studies::findings::StudyFindings;
 use crate::studies::number::{coordinate, percent, share_text};
 use crate::studies::runner::StudyRunner;
-use crate::studies::table::StudyTable;
 
 const COLUMNS: [&str; 6] = ["set", "mad_from", "mad_to", "regions", "share", "design"];
 const BINS: u64 = 128;
@@ -35,7 +35,7 @@ pub(crate) fn run(watcher: &StudyRunner<'_>) -> Result<StudyFindings, StudyError
                 histogram.bins[bin(design, score)] += 1;
             }
         })?;
-    let mut table = StudyTable::new(&COLUMNS);
+    let mut table = ReportTable::of_words(COLUMNS);
     let mut lines = Vec::new();
     for set in &watched {
         for (design, histogram) in &set.points {

@@ -3,6 +3,7 @@
 
 use foveate_camera::{CameraConfig, Decimal, FeatureKind, SpatialConfig};
 use foveate_design::DesignConfig;
+use foveate_output::report::ReportTable;
 use foveate_output::{
     chart::{BarSeries, Chart, ChartData},
     palette::{LIGHT, SERIES},
@@ -13,7 +14,6 @@ use crate::studies::StudyError;
 use crate::studies::findings::StudyFindings;
 use crate::studies::number::{percent, share_text};
 use crate::studies::runner::StudyRunner;
-use crate::studies::table::StudyTable;
 
 /// The columns before and after those of the features.
 const COLUMNS: ([&str; 3], [&str; 1]) = (["set", "images", "regions"], ["design"]);
@@ -39,7 +39,7 @@ pub(crate) fn run(watcher: &StudyRunner<'_>) -> Result<StudyFindings, StudyError
     })?;
     let names = kinds.iter().map(|kind| kind.name());
     let columns: Vec<_> = COLUMNS.0.into_iter().chain(names).chain(COLUMNS.1).collect();
-    let mut table = StudyTable::new(&columns);
+    let mut table = ReportTable::of_words(columns);
     for set in &watched {
         for (design, below) in &set.points {
             let mut row = vec![set.name.clone(), set.frames.to_string(), below.all.to_string()];

@@ -9,11 +9,11 @@ use crate::studies::StudyError;
 use crate::studies::findings::StudyFindings;
 use crate::studies::rank::spearman;
 use crate::studies::runner::{FrameAnnotator, StudyRunner};
-use crate::studies::table::StudyTable;
 use csv::{ErrorKind, ReaderBuilder, StringRecord, Trim};
 use foveate_design::Design;
 use foveate_media::boxes::BoxView;
 use foveate_media::{CropRect, EventReader, PlaybackError, PlayedFrame, is_event_file};
+use foveate_output::report::ReportTable;
 use foveate_pixels::Rect;
 use foveate_tools::{foreign_format, open_file, table_reader, unpacked};
 use serde::Deserialize;
@@ -84,7 +84,7 @@ pub(crate) fn run(
         },
     )?;
     refuse_data_sets(Study::Sensor, &watched)?;
-    let mut table = StudyTable::new(&COLUMNS);
+    let mut table = ReportTable::of_words(COLUMNS);
     let mut outside = 0;
     let clip = watched.first().expect("there is one clip");
     let view = clip.annotator.found.as_ref().expect("a clip has a frame");

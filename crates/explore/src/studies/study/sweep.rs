@@ -5,13 +5,13 @@ use foveate_camera::{Decimal, FeatureKind, ScoreUnit};
 use foveate_design::DesignConfig;
 use foveate_media::SourceKind;
 use foveate_output::chart::{Chart, ChartData, ChartSeries};
+use foveate_output::report::ReportTable;
 
 use super::Study;
 use crate::studies::StudyError;
 use crate::studies::findings::StudyFindings;
 use crate::studies::number::{coordinate, percent, share_text};
 use crate::studies::runner::{ClipResult, StudyRunner};
-use crate::studies::table::StudyTable;
 use crate::studies::tally::{RegionCounts, RegionTally};
 
 const COLUMNS: [&str; 7] =
@@ -149,7 +149,7 @@ fn run(
         std::iter::once(watcher.config.clone()).chain(points).collect();
     let watched =
         watcher.run_clips(&configs, |tally: &mut RegionTally, _, seen| tally.add(seen))?;
-    let mut table = StudyTable::new(&COLUMNS);
+    let mut table = ReportTable::of_words(COLUMNS);
     let mut charts = Vec::new();
     let mut first = 1;
     for key in keys {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The shares over whole clips, with a row per clip.
 
+use foveate_output::report::ReportTable;
 use std::slice::from_ref;
 
 use foveate_output::{
@@ -13,7 +14,6 @@ use crate::studies::StudyError;
 use crate::studies::findings::StudyFindings;
 use crate::studies::number::{percent, share_text};
 use crate::studies::runner::StudyRunner;
-use crate::studies::table::StudyTable;
 use crate::studies::tally::{RegionCounts, RegionTally};
 
 const COLUMNS: [&str; 9] = [
@@ -32,7 +32,7 @@ pub(crate) fn run(watcher: &StudyRunner<'_>) -> Result<StudyFindings, StudyError
     let watched = watcher
         .run_clips(from_ref(watcher.config), |tally: &mut RegionTally, _, seen| tally.add(seen))?;
     refuse_data_sets(Study::Temporal, &watched)?;
-    let mut table = StudyTable::new(&COLUMNS);
+    let mut table = ReportTable::of_words(COLUMNS);
     let mut groups = Vec::new();
     let mut ranges = Vec::new();
     let mut sums = Vec::new();

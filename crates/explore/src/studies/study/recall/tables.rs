@@ -6,9 +6,9 @@ use super::class::{ALL, CLASSES, UNKNOWN};
 use super::count::{ClassCounts, LevelCounts};
 use super::{RecallClip, RecallPoint, RecallResult, SweptKey};
 use crate::studies::number::{coordinate, percent, share_text};
-use crate::studies::table::StudyTable;
 use foveate_output::chart::{BarSeries, Chart, ChartData, ChartSeries};
 use foveate_output::palette::SERIES;
+use foveate_output::report::ReportTable;
 
 const COLUMNS: [&str; 14] = [
     "clip",
@@ -42,8 +42,8 @@ const TRACKS: [&str; 8] =
     ["clip", "track", "frames", "some", "quarter", "half", "all", "longest_gap"];
 
 /// Returns a row for every clip, point, vote and class that has an object.
-pub(super) fn whole_table(points: &[RecallPoint], results: &[RecallResult]) -> StudyTable {
-    let mut table = StudyTable::new(&COLUMNS);
+pub(super) fn whole_table(points: &[RecallPoint], results: &[RecallResult]) -> ReportTable {
+    let mut table = ReportTable::of_words(COLUMNS);
     for result in results {
         let point = &points[result.point];
         let mut row =
@@ -69,8 +69,8 @@ pub(super) fn whole_table(points: &[RecallPoint], results: &[RecallResult]) -> S
 }
 
 /// Returns the rows of the unchanged design: every clip, and the classes of all clips together.
-pub(super) fn printed_table(results: &[RecallResult]) -> StudyTable {
-    let mut table = StudyTable::new(&SHOWN);
+pub(super) fn printed_table(results: &[RecallResult]) -> ReportTable {
+    let mut table = ReportTable::of_words(SHOWN);
     let own: Vec<&RecallResult> = results.iter().filter(|result| result.point == 0).collect();
     let in_percent = |part, whole| format!("{:.1} %", percent(part, whole));
     for (number, result) in own.iter().enumerate() {
@@ -102,8 +102,8 @@ pub(super) fn printed_table(results: &[RecallResult]) -> StudyTable {
 }
 
 /// Returns every track of every clip for the unchanged design; `None` without tracks.
-pub(super) fn track_table(watched: &[RecallClip]) -> Option<StudyTable> {
-    let mut table = StudyTable::new(&TRACKS);
+pub(super) fn track_table(watched: &[RecallClip]) -> Option<ReportTable> {
+    let mut table = ReportTable::of_words(TRACKS);
     for clip in watched {
         let own = clip.points.first().into_iter();
         for (id, track) in own.flat_map(|(_, tally)| &tally.sums().tracks) {
