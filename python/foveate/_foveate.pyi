@@ -1,46 +1,28 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Types of the compiled part. The documentation is in its docstrings: ``help(foveate.Camera)``."""
-import os
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from typing import Any, Literal, Optional, Union, final
+from typing import Any, Optional, Union, final
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from typing_extensions import Unpack
 
 from foveate._clip import ClipOutcome
+from foveate._options import InputOptions, PathLike, Sections
 from foveate._registers import Register
 from foveate._results import Estimate, Explanation, StreamLoss
 
 __version__: str
 
-_PathLike = Union[str, "os.PathLike[str]"]
-_Section = Mapping[str, Any]
-_Spatial = Union[str, _Section, Sequence[Union[str, _Section]]]
-_Camera = Union["Camera", "Design", _PathLike, dict[str, Any], None]
+_Camera = Union["Camera", "Design", PathLike, dict[str, Any], None]
 _Pixels = Union[NDArray[np.uint8], NDArray[np.uint16]]
-_Number = Union[int, float, str]
 
 class ToolError(RuntimeError): ...
 
 @final
 class Design:
-    def __new__(
-        cls,
-        config: _Camera = None,
-        /,
-        *,
-        frame: Optional[_Section] = None,
-        region: Optional[_Section] = None,
-        denoise: Optional[_Section] = None,
-        spatial: Optional[_Spatial] = None,
-        decision: Optional[_Section] = None,
-        temporal: Optional[_Section] = None,
-        render: Optional[_Section] = None,
-        periphery: Optional[_Section] = None,
-        zones: Optional[_Section] = None,
-        hardware: Optional[_Section] = None,
-    ) -> Design: ...
+    def __new__(cls, config: _Camera = None, /, **sections: Unpack[Sections]) -> Design: ...
     @property
     def width(self) -> int: ...
     @property
@@ -64,25 +46,18 @@ class Design:
     @property
     def fingerprint(self) -> str: ...
     def toml(self) -> str: ...
-    def generate(self, folder: _PathLike, *, force: bool = False, prefix: str | None = None) -> list[Path]: ...
+    def generate(self, folder: PathLike, *, force: bool = False, prefix: str | None = None) -> list[Path]: ...
     def estimate(self) -> Estimate: ...
     def registers(self) -> tuple[Register, ...]: ...
     def _repr_html_(self) -> str: ...
     def __eq__(self, other: object, /) -> bool: ...
     def __hash__(self) -> int: ...
 
-@final
-class Outcome:
+class _RegionArrays:
     @property
     def design(self) -> Design: ...
     @property
     def number(self) -> int: ...
-    @property
-    def time_us(self) -> int: ...
-    @property
-    def name(self) -> Optional[str]: ...
-    @property
-    def label(self) -> Optional[str]: ...
     @property
     def srs(self) -> NDArray[np.bool_]: ...
     @property
@@ -92,15 +67,24 @@ class Outcome:
     @property
     def action(self) -> NDArray[np.uint8]: ...
     @property
+    def displacements(self) -> Optional[NDArray[np.int8]]: ...
+    @property
+    def rendered(self) -> _Pixels: ...
+
+@final
+class Outcome(_RegionArrays):
+    @property
+    def time_us(self) -> int: ...
+    @property
+    def name(self) -> Optional[str]: ...
+    @property
+    def label(self) -> Optional[str]: ...
+    @property
     def changed(self) -> NDArray[np.int64]: ...
     @property
     def scores(self) -> dict[str, NDArray[np.int64]]: ...
     @property
-    def displacements(self) -> Optional[NDArray[np.int8]]: ...
-    @property
     def frame(self) -> Optional[_Pixels]: ...
-    @property
-    def rendered(self) -> _Pixels: ...
     @property
     def sent_pixels(self) -> int: ...
     @property
@@ -114,23 +98,7 @@ class Outcome:
 
 @final
 class Camera:
-    def __new__(
-        cls,
-        config: _Camera = None,
-        /,
-        *,
-        threads: int = 1,
-        frame: Optional[_Section] = None,
-        region: Optional[_Section] = None,
-        denoise: Optional[_Section] = None,
-        spatial: Optional[_Spatial] = None,
-        decision: Optional[_Section] = None,
-        temporal: Optional[_Section] = None,
-        render: Optional[_Section] = None,
-        periphery: Optional[_Section] = None,
-        zones: Optional[_Section] = None,
-        hardware: Optional[_Section] = None,
-    ) -> Camera: ...
+    def __new__(cls, config: _Camera = None, /, *, threads: int = 1, **sections: Unpack[Sections]) -> Camera: ...
     @property
     def design(self) -> Design: ...
     @property
@@ -140,31 +108,9 @@ class Camera:
     @zones.setter
     def zones(self, classes: Any, /) -> None: ...
     def step(self, frame: Any, /, *, time_us: Optional[int] = None, keep: bool = False) -> Outcome: ...
-    def run(
-        self,
-        inputs: Any,
-        *,
-        rendered: bool = True,
-        progress: Optional[bool] = None,
-        max_frames: Optional[int] = None,
-        input_fps: Optional[_Number] = None,
-        rate: Optional[_Number] = None,
-        start: Optional[_Number] = None,
-        end: Optional[_Number] = None,
-        crop: Optional[tuple[int, int, int, int]] = None,
-        resize: Optional[tuple[int, int]] = None,
-        luma: Optional[Literal["coded", "full"]] = None,
-        orientation: Optional[Literal["stored", "upright"]] = None,
-        video_stream: Optional[int] = None,
-        raw: Optional[str] = None,
-        bayer: Optional[Literal["rggb", "bggr", "grbg", "gbrg"]] = None,
-        timestamps: Optional[_PathLike] = None,
-        timestamp_unit: Optional[Literal["s", "ms", "us", "ns"]] = None,
-        images: Optional[Literal["clip", "set", "cifar-sheet"]] = None,
-        labels: Optional[_PathLike] = None,
-    ) -> ClipOutcome: ...
+    def run(self, inputs: Any, *, rendered: bool = True, progress: Optional[bool] = None, **options: Unpack[InputOptions]) -> ClipOutcome: ...
     def reset(self) -> None: ...
-    def generate(self, folder: _PathLike, *, force: bool = False, prefix: str | None = None) -> list[Path]: ...
+    def generate(self, folder: PathLike, *, force: bool = False, prefix: str | None = None) -> list[Path]: ...
     def estimate(self) -> Estimate: ...
     def registers(self) -> tuple[Register, ...]: ...
     def _repr_html_(self) -> str: ...
@@ -179,16 +125,7 @@ class TimedCamera:
         clock_hz: Optional[float] = None,
         sink_rate: Optional[tuple[int, int]] = None,
         sink_stalls: Optional[ArrayLike] = None,
-        frame: Optional[_Section] = None,
-        region: Optional[_Section] = None,
-        denoise: Optional[_Section] = None,
-        spatial: Optional[_Spatial] = None,
-        decision: Optional[_Section] = None,
-        temporal: Optional[_Section] = None,
-        render: Optional[_Section] = None,
-        periphery: Optional[_Section] = None,
-        zones: Optional[_Section] = None,
-        hardware: Optional[_Section] = None,
+        **sections: Unpack[Sections],
     ) -> TimedCamera: ...
     @property
     def design(self) -> Design: ...
@@ -220,55 +157,19 @@ class Decoding(Iterator[DecodedFrame]):
     def __next__(self) -> DecodedFrame: ...
 
 @final
-class DecodedFrame:
-    @property
-    def design(self) -> Design: ...
-    @property
-    def number(self) -> int: ...
+class DecodedFrame(_RegionArrays):
     @property
     def time_us(self) -> Optional[int]: ...
     @property
     def map_version(self) -> Optional[int]: ...
     @property
-    def srs(self) -> NDArray[np.bool_]: ...
-    @property
-    def trs(self) -> NDArray[np.bool_]: ...
-    @property
-    def active(self) -> NDArray[np.bool_]: ...
-    @property
-    def action(self) -> NDArray[np.uint8]: ...
-    @property
     def changed(self) -> Optional[NDArray[np.int64]]: ...
     @property
     def scores(self) -> Optional[dict[str, NDArray[np.int64]]]: ...
     @property
-    def displacements(self) -> Optional[NDArray[np.int8]]: ...
-    @property
-    def rendered(self) -> _Pixels: ...
-    @property
     def losses(self) -> tuple[StreamLoss, ...]: ...
 
-def simulate(
-    inputs: Any,
-    camera: _Camera = None,
-    *,
-    max_frames: Optional[int] = None,
-    input_fps: Optional[_Number] = None,
-    rate: Optional[_Number] = None,
-    start: Optional[_Number] = None,
-    end: Optional[_Number] = None,
-    crop: Optional[tuple[int, int, int, int]] = None,
-    resize: Optional[tuple[int, int]] = None,
-    luma: Optional[Literal["coded", "full"]] = None,
-    orientation: Optional[Literal["stored", "upright"]] = None,
-    video_stream: Optional[int] = None,
-    raw: Optional[str] = None,
-    bayer: Optional[Literal["rggb", "bggr", "grbg", "gbrg"]] = None,
-    timestamps: Optional[_PathLike] = None,
-    timestamp_unit: Optional[Literal["s", "ms", "us", "ns"]] = None,
-    images: Optional[Literal["clip", "set", "cifar-sheet"]] = None,
-    labels: Optional[_PathLike] = None,
-) -> Run: ...
+def simulate(inputs: Any, camera: _Camera = None, **options: Unpack[InputOptions]) -> Run: ...
 def clocks(
     inputs: Any,
     camera: _Camera = None,
@@ -276,22 +177,7 @@ def clocks(
     clock_hz: Optional[float] = None,
     sink_rate: Optional[tuple[int, int]] = None,
     sink_stalls: Optional[ArrayLike] = None,
-    max_frames: Optional[int] = None,
-    input_fps: Optional[_Number] = None,
-    rate: Optional[_Number] = None,
-    start: Optional[_Number] = None,
-    end: Optional[_Number] = None,
-    crop: Optional[tuple[int, int, int, int]] = None,
-    resize: Optional[tuple[int, int]] = None,
-    luma: Optional[Literal["coded", "full"]] = None,
-    orientation: Optional[Literal["stored", "upright"]] = None,
-    video_stream: Optional[int] = None,
-    raw: Optional[str] = None,
-    bayer: Optional[Literal["rggb", "bggr", "grbg", "gbrg"]] = None,
-    timestamps: Optional[_PathLike] = None,
-    timestamp_unit: Optional[Literal["s", "ms", "us", "ns"]] = None,
-    images: Optional[Literal["clip", "set", "cifar-sheet"]] = None,
-    labels: Optional[_PathLike] = None,
+    **options: Unpack[InputOptions],
 ) -> NDArray[np.void]: ...
 def decode(data: Union[bytes, bytearray, memoryview, NDArray[np.uint8]], camera: _Camera = None) -> Decoding: ...
 def luma(frame: Any) -> NDArray[np.uint8]: ...
@@ -302,15 +188,10 @@ def run_clip(
     camera: Camera, inputs: Any, rendered: bool, report: Optional[Callable[[int, Optional[int], Optional[float]], None]], **options: Any
 ) -> tuple[Design, dict[str, Any], Optional[str]]: ...
 def pixel_event_records(inputs: Any, camera: _Camera, contrast: Optional[float], log: bool, **options: Any) -> NDArray[np.uint8]: ...
-def explain(
-    inputs: Any, camera: _Camera = None, *, frame: int, region: tuple[int, int], **options: Any
-) -> tuple[str, str]: ...
-def fidelity(
-    inputs: Any, camera: _Camera = None, *, ideal: _Camera = None, **options: Any
-) -> tuple[str, Optional[str]]: ...
-def generate(camera: _Camera, folder: _PathLike, force: bool, prefix: str | None = None) -> list[str]: ...
+def explain(inputs: Any, camera: _Camera = None, *, frame: int, region: tuple[int, int], **options: Any) -> tuple[str, str]: ...
+def fidelity(inputs: Any, camera: _Camera = None, *, ideal: _Camera = None, **options: Any) -> tuple[str, Optional[str]]: ...
+def generate(camera: _Camera, folder: PathLike, force: bool, prefix: str | None = None) -> list[str]: ...
 def estimate(camera: _Camera) -> tuple[str, str]: ...
-def infer(network: _PathLike, inputs: Any, camera: _Camera, output: _PathLike, **options: Any) -> str: ...
-def refuse_option(function: str, name: str) -> None: ...
+def infer(network: PathLike, inputs: Any, camera: _Camera, output: PathLike, **options: Any) -> str: ...
 def grey_png(frame: Any, bits: int = 8) -> bytes: ...
 def decisions_png(outcome: Outcome) -> bytes: ...

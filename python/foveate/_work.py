@@ -2,74 +2,37 @@
 """Functions for the commands other than ``simulate``."""
 from __future__ import annotations
 
-import functools
-import inspect
 import json
-import os
 import shutil
 import tempfile
 import weakref
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, Literal, TypeVar, Union, cast
+from typing import TYPE_CHECKING, Any, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
 from foveate import _foveate
+from foveate._options import InputOptions, PathLike, takes_inputs
 from foveate._results import Estimate, Explanation, Fidelity, Inference
 
-PathLike = Union[str, "os.PathLike[str]"]
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
 Inputs = Union[PathLike, Sequence[PathLike]]
-Number = Union[int, float, str]
-Crop = tuple[int, int, int, int]
-Images = Literal["clip", "set", "cifar-sheet"]
-Luma = Literal["coded", "full"]
-Orientation = Literal["stored", "upright"]
-Bayer = Literal["rggb", "bggr", "grbg", "gbrg"]
-TimestampUnit = Literal["s", "ms", "us", "ns"]
 #: The type of a pixel event, that of tonic.
 _PIXEL_EVENT = np.dtype([("x", "<i2"), ("y", "<i2"), ("t", "<i8"), ("p", "?")])
-_Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
-def _check_options(function: _Function) -> _Function:
-    """Make a function refuse an unknown option with the name of the nearest known one."""
-    parameters = set(inspect.signature(function).parameters)
-
-    @functools.wraps(function)
-    def checked_function(*values: Any, **options: Any) -> Any:
-        for name in options:
-            if name not in parameters:
-                _foveate.refuse_option(function.__name__, name)
-        return function(*values, **options)
-
-    return cast(_Function, checked_function)
-
-
-@_check_options
+@takes_inputs
 def explain(
     inputs: Any,
     camera: Any = None,
     *,
     frame: int = 0,
     region: tuple[int, int] = (0, 0),
-    max_frames: int | None = None,
-    input_fps: Number | None = None,
-    rate: Number | None = None,
-    start: Number | None = None,
-    end: Number | None = None,
-    crop: Crop | None = None,
-    resize: tuple[int, int] | None = None,
-    luma: Luma | None = None,
-    orientation: Orientation | None = None,
-    video_stream: int | None = None,
-    raw: str | None = None,
-    bayer: Bayer | None = None,
-    timestamps: PathLike | None = None,
-    timestamp_unit: TimestampUnit | None = None,
-    images: Images | None = None,
-    labels: PathLike | None = None,
+    **options: Unpack[InputOptions],
 ) -> Explanation:
     """Explain why a region of a frame was sent or dropped.
 
@@ -100,36 +63,17 @@ def explain(
     TypeError
         If an option does not exist, or if ``inputs`` are neither footage nor frames.
     """
-    values, text = _foveate.explain(
-        inputs, camera, frame=frame, region=region, max_frames=max_frames, input_fps=input_fps, rate=rate, start=start, end=end,
-        crop=crop, resize=resize, luma=luma, orientation=orientation, video_stream=video_stream, raw=raw, bayer=bayer,
-        timestamps=timestamps, timestamp_unit=timestamp_unit, images=images, labels=labels,
-    )
+    values, text = _foveate.explain(inputs, camera, frame=frame, region=region, **options)
     return Explanation(json.loads(values), text)
 
 
-@_check_options
+@takes_inputs
 def fidelity(
     inputs: Any,
     camera: Any = None,
     *,
     ideal: Any = None,
-    max_frames: int | None = None,
-    input_fps: Number | None = None,
-    rate: Number | None = None,
-    start: Number | None = None,
-    end: Number | None = None,
-    crop: Crop | None = None,
-    resize: tuple[int, int] | None = None,
-    luma: Luma | None = None,
-    orientation: Orientation | None = None,
-    video_stream: int | None = None,
-    raw: str | None = None,
-    bayer: Bayer | None = None,
-    timestamps: PathLike | None = None,
-    timestamp_unit: TimestampUnit | None = None,
-    images: Images | None = None,
-    labels: PathLike | None = None,
+    **options: Unpack[InputOptions],
 ) -> Fidelity:
     """Measure the errors of a design against the ideal camera, which computes in real numbers over whole frames.
 
@@ -153,37 +97,18 @@ def fidelity(
         area, without the first frame of every clip), ``stale_regions`` (share of the relevant regions), ``psnr_ideal`` in dB (None if
         identical), ``ssim_ideal``, ``scores``, ``staleness`` and more.
     """
-    values, problem = _foveate.fidelity(
-        inputs, camera, ideal=ideal, max_frames=max_frames, input_fps=input_fps, rate=rate, start=start, end=end, crop=crop,
-        resize=resize, luma=luma, orientation=orientation, video_stream=video_stream, raw=raw, bayer=bayer,
-        timestamps=timestamps, timestamp_unit=timestamp_unit, images=images, labels=labels,
-    )
+    values, problem = _foveate.fidelity(inputs, camera, ideal=ideal, **options)
     return Fidelity(json.loads(values), problem)
 
 
-@_check_options
+@takes_inputs
 def pixel_events(
     inputs: Any,
     camera: Any = None,
     *,
     contrast: float | None = None,
     log: bool = False,
-    max_frames: int | None = None,
-    input_fps: Number | None = None,
-    rate: Number | None = None,
-    start: Number | None = None,
-    end: Number | None = None,
-    crop: Crop | None = None,
-    resize: tuple[int, int] | None = None,
-    luma: Luma | None = None,
-    orientation: Orientation | None = None,
-    video_stream: int | None = None,
-    raw: str | None = None,
-    bayer: Bayer | None = None,
-    timestamps: PathLike | None = None,
-    timestamp_unit: TimestampUnit | None = None,
-    images: Images | None = None,
-    labels: PathLike | None = None,
+    **options: Unpack[InputOptions],
 ) -> NDArray[np.void]:
     """Make the events of an ordinary event camera of the same frames, in the layout of the package tonic.
 
@@ -225,11 +150,7 @@ def pixel_events(
     >>> events = pixel_events("scene:street", contrast=15, max_frames=8)
     >>> events["p"].mean(), events["t"].max()
     """
-    records = _foveate.pixel_event_records(
-        inputs, camera, contrast, log, max_frames=max_frames, input_fps=input_fps, rate=rate, start=start, end=end, crop=crop,
-        resize=resize, luma=luma, orientation=orientation, video_stream=video_stream, raw=raw, bayer=bayer,
-        timestamps=timestamps, timestamp_unit=timestamp_unit, images=images, labels=labels,
-    )
+    records = _foveate.pixel_event_records(inputs, camera, contrast, log, **options)
     return records.view(_PIXEL_EVENT)
 
 
@@ -288,7 +209,7 @@ def estimate(camera: Any) -> Estimate:
     return Estimate(json.loads(values), text)
 
 
-@_check_options
+@takes_inputs
 def infer(
     network: PathLike,
     inputs: Any,
@@ -309,22 +230,7 @@ def infer(
     boxes: Inputs | None = None,
     pictures: bool = False,
     force: bool = False,
-    max_frames: int | None = None,
-    input_fps: Number | None = None,
-    rate: Number | None = None,
-    start: Number | None = None,
-    end: Number | None = None,
-    crop: Crop | None = None,
-    resize: tuple[int, int] | None = None,
-    luma: Luma | None = None,
-    orientation: Orientation | None = None,
-    video_stream: int | None = None,
-    raw: str | None = None,
-    bayer: Bayer | None = None,
-    timestamps: PathLike | None = None,
-    timestamp_unit: TimestampUnit | None = None,
-    images: Images | None = None,
-    labels: PathLike | None = None,
+    **options: Unpack[InputOptions],
 ) -> Inference:
     """Run a network on the output of a camera, and count what its masks save.
 
@@ -386,18 +292,15 @@ def infer(
     ValueError
         If a file has wrong content, or if the inputs do not fit each other.
     """
-    options: dict[str, Any] = dict(
+    choices: dict[str, Any] = dict(
         mode=mode, tune=tune, reference=reference, accelerator=accelerator, mean=mean, scale=scale, framing=framing,
-        whole_frames=whole_frames, noise=noise, every=every, detect=detect, boxes=boxes, pictures=pictures, force=force, max_frames=max_frames,
-        input_fps=input_fps, rate=rate, start=start, end=end, crop=crop, resize=resize, luma=luma,
-        orientation=orientation, video_stream=video_stream, raw=raw, bayer=bayer,
-        timestamps=timestamps, timestamp_unit=timestamp_unit, images=images, labels=labels,
+        whole_frames=whole_frames, noise=noise, every=every, detect=detect, boxes=boxes, pictures=pictures, force=force, **options,
     )
     if output is not None:
-        return Inference(Path(output), json.loads(_foveate.infer(network, inputs, camera, output, **options)))
+        return Inference(Path(output), json.loads(_foveate.infer(network, inputs, camera, output, **choices)))
     temporary = Path(tempfile.mkdtemp(prefix="foveate-"))
     try:
-        summary = _foveate.infer(network, inputs, camera, temporary / "inference", **options)
+        summary = _foveate.infer(network, inputs, camera, temporary / "inference", **choices)
     except BaseException:
         shutil.rmtree(temporary)
         raise

@@ -12,13 +12,12 @@ use foveate_output::palette::{ACTIVE, CHANGED, RELEVANT};
 use foveate_pixels::{FramePixels, convert_depth, display_depth};
 use image::codecs::png::PngEncoder;
 use image::{ExtendedColorType, ImageEncoder};
+use numpy::ndarray::IntoDimension;
 use numpy::{
-    Element, PyArray1, PyArray2, PyArray3, PyArrayDescrMethods, PyArrayMethods, PyUntypedArray,
-    PyUntypedArrayMethods,
+    Element, PyArray1, PyArrayDescrMethods, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods,
 };
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyBytes, PyDict, PyString};
 use std::path::PathBuf;
 
@@ -165,138 +164,88 @@ fn short(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// A frame of pixels as an array that owns its memory.
-pub(crate) struct Screen(pub(crate) Py<PyUntypedArray>);
-
-impl Screen {
-    pub(crate) fn of(py: Python<'_>, design: &Design, pixels: FramePixels<'_>) -> Self {
-        let size = [design.height() as usize, design.width() as usize];
-        Self(match pixels {
-            FramePixels::Bytes(pixels) => untyped_regions(py, pixels, size),
-            FramePixels::Words(pixels) => untyped_regions(py, pixels, size),
-        })
-    }
-}
-
-fn untyped_regions<T: Element + Copy>(
+/// Returns pixels as an array that owns its memory.
+pub(crate) fn screen(
     py: Python<'_>,
-    pixels: &[T],
-    size: [usize; 2],
-) -> Py<PyUntypedArray> {
-    let array = PyArray1::from_slice(py, pixels).reshape(size);
-    array
-        .expect("a pixel for every place")
-        .into_any()
-        .cast_into()
-        .expect("an array is one")
-        .unbind()
+    design: &Design,
+    pixels: FramePixels<'_>,
+) -> PyResult<Py<PyAny>> {
+    let size = [design.height() as usize, design.width() as usize];
+    let array = match pixels {
+        FramePixels::Bytes(pixels) => stacked(py, pixels.to_vec(), size),
+        FramePixels::Words(pixels) => stacked(py, pixels.to_vec(), size),
+    };
+    Ok(array?.unbind())
 }
 
-/// The arrays of a frame, as far as they have been read.
-pub(crate) struct RegionArrays {
-    srs: PyOnceLock<Py<PyArray2<bool>>>,
-    trs: PyOnceLock<Py<PyArray2<bool>>>,
-    active: PyOnceLock<Py<PyArray2<bool>>>,
-    action: PyOnceLock<Py<PyArray2<u8>>>,
-    changed: PyOnceLock<Py<PyArray2<i64>>>,
-    scores: PyOnceLock<Py<PyDict>>,
-    displacements: PyOnceLock<Py<PyArray3<i8>>>,
+/// Returns values as an array of a shape.
+pub(crate) fn stacked<T: Element>(
+    py: Python<'_>,
+    mut values: Vec<T>,
+    shape: impl IntoDimension,
+) -> PyResult<Bound<'_, PyAny>> {
+    values.shrink_to_fit();
+    Ok(PyArray1::from_vec(py, values).reshape(shape)?.into_any())
 }
 
-/// The design and the results of a frame, of which arrays are made.
-#[derive(Clone, Copy)]
-pub(crate) struct RegionResults<'a> {
-    pub(crate) design: &'a Design,
-    pub(crate) result: &'a FrameOutcome,
-}
-
-impl RegionResults<'_> {
-    fn size(self) -> [usize; 2] {
-        [self.design.rows() as usize, self.design.columns() as usize]
-    }
-
-    /// Returns an array of regions, which is made once.
-    fn once<T: Element>(
-        self,
-        py: Python<'_>,
-        held: &PyOnceLock<Py<PyArray2<T>>>,
-        values: impl ExactSizeIterator<Item = T>,
-    ) -> Py<PyArray2<T>> {
-        held.get_or_init(py, || array(py, values, self.size()).unbind()).clone_ref(py)
-    }
-}
+/// The arrays of a frame by the names of its attributes, as far as they have been read.
+pub(crate) struct RegionArrays(Py<PyDict>);
 
 impl RegionArrays {
     /// Makes no array yet.
-    pub(crate) fn new() -> Self {
-        Self {
-            srs: PyOnceLock::new(),
-            trs: PyOnceLock::new(),
-            active: PyOnceLock::new(),
-            action: PyOnceLock::new(),
-            changed: PyOnceLock::new(),
-            scores: PyOnceLock::new(),
-            displacements: PyOnceLock::new(),
-        }
+    pub(crate) fn new(py: Python<'_>) -> Self {
+        Self(PyDict::new(py).unbind())
     }
 
-    pub(crate) fn srs(&self, py: Python<'_>, own: RegionResults<'_>) -> Py<PyArray2<bool>> {
-        own.once(py, &self.srs, own.result.srs.iter().copied())
-    }
-
-    pub(crate) fn trs(&self, py: Python<'_>, own: RegionResults<'_>) -> Py<PyArray2<bool>> {
-        own.once(py, &self.trs, own.result.trs.iter().copied())
-    }
-
-    pub(crate) fn active(&self, py: Python<'_>, own: RegionResults<'_>) -> Py<PyArray2<bool>> {
-        own.once(py, &self.active, own.result.active.iter().copied())
-    }
-
-    pub(crate) fn action(&self, py: Python<'_>, own: RegionResults<'_>) -> Py<PyArray2<u8>> {
-        own.once(py, &self.action, own.result.actions.iter().map(|&action| action_code(action)))
-    }
-
-    pub(crate) fn changed(&self, py: Python<'_>, own: RegionResults<'_>) -> Py<PyArray2<i64>> {
-        own.once(py, &self.changed, own.result.temporal_count.iter().map(|&count| count.into()))
-    }
-
-    pub(crate) fn scores(&self, py: Python<'_>, own: RegionResults<'_>) -> PyResult<Py<PyDict>> {
-        let make = || -> PyResult<Py<PyDict>> {
-            let found = PyDict::new(py);
-            for (feature, scores) in own.design.features().iter().zip(&own.result.scores) {
-                let scores = array(py, scores.iter().map(signed_score), own.size());
-                found.set_item(feature.kind().to_string(), scores)?;
-            }
-            Ok(found.unbind())
-        };
-        Ok(self.scores.get_or_try_init(py, make)?.clone_ref(py))
-    }
-
-    /// Returns the displacements, or `None` for a design without the feature `flow`.
-    pub(crate) fn displacements(
+    /// Returns an array, which is made when it is first read.
+    pub(crate) fn get<'py>(
         &self,
-        py: Python<'_>,
-        own: RegionResults<'_>,
-    ) -> Option<Py<PyArray3<i8>>> {
-        own.design.displacement_feature()?;
-        let make = || {
-            let [rows, columns] = own.size();
-            let numbers = displacement_numbers(own.result).collect();
-            let array = PyArray1::from_vec(py, numbers).reshape([rows, columns, 2]);
-            array.expect("two numbers for every region").unbind()
+        py: Python<'py>,
+        name: &str,
+        design: &Design,
+        result: &FrameOutcome,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let held = self.0.bind(py);
+        if let Some(array) = held.get_item(name)? {
+            return Ok(array);
+        }
+        let size @ [rows, columns] = [design.rows() as usize, design.columns() as usize];
+        let array = match name {
+            "srs" => stacked(py, result.srs.clone(), size)?,
+            "trs" => stacked(py, result.trs.clone(), size)?,
+            "active" => stacked(py, result.active.clone(), size)?,
+            "action" => stacked(py, action_codes(result).collect(), size)?,
+            "changed" => stacked(py, changed_counts(result).collect(), size)?,
+            "displacements" if design.displacement_feature().is_none() => py.None().into_bound(py),
+            "displacements" => {
+                stacked(py, displacement_numbers(result).collect(), [rows, columns, 2])?
+            }
+            "scores" => {
+                let found = PyDict::new(py);
+                for (feature, scores) in design.features().iter().zip(&result.scores) {
+                    let scores = stacked(py, scores.iter().map(signed_score).collect(), size)?;
+                    found.set_item(feature.kind().to_string(), scores)?;
+                }
+                found.into_any()
+            }
+            _ => unreachable!("every array of regions is above"),
         };
-        Some(self.displacements.get_or_init(py, make).clone_ref(py))
+        held.call_method1("setdefault", (name, array))
     }
 }
 
-/// Returns the number of an action, which is its index in `foveate.ACTIONS`.
-pub(crate) fn action_code(action: RegionAction) -> u8 {
-    match action {
+/// Returns the number of the action of each region, which is its index in `foveate.ACTIONS`.
+pub(crate) fn action_codes(result: &FrameOutcome) -> impl Iterator<Item = u8> + '_ {
+    result.actions.iter().map(|action| match action {
         RegionAction::Blank => 0,
         RegionAction::Hold => 1,
         RegionAction::Forward => 2,
         RegionAction::Summarize => 3,
-    }
+    })
+}
+
+pub(crate) fn changed_counts(result: &FrameOutcome) -> impl Iterator<Item = i64> + '_ {
+    result.temporal_count.iter().map(|&count| count.into())
 }
 
 pub(crate) fn signed_score(score: &u64) -> i64 {
@@ -306,15 +255,6 @@ pub(crate) fn signed_score(score: &u64) -> i64 {
 /// Returns the displacement of each region, to the right and down.
 pub(crate) fn displacement_numbers(result: &FrameOutcome) -> impl Iterator<Item = i8> + '_ {
     result.displacements.iter().flat_map(|one| [one.dx, one.dy])
-}
-
-/// Returns the values of all regions, row by row.
-fn array<T: Element>(
-    py: Python<'_>,
-    values: impl ExactSizeIterator<Item = T>,
-    size: [usize; 2],
-) -> Bound<'_, PyArray2<T>> {
-    PyArray1::from_iter(py, values).reshape(size).expect("a value for every place")
 }
 
 /// Returns a grey frame of some bits per pixel as a PNG.

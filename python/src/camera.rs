@@ -12,16 +12,15 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use super::array::Screen;
+use super::array::screen;
 use super::outcome::{FrameRecord, classes_of};
-use super::timed_camera::{MicroSeconds, StepClock};
+use super::timed_camera::{StepClock, microseconds};
 use crate::camera_state::{CameraState, NO_SIZE, PickledMap, SizedEngine, lock_camera};
-use crate::design::{Design, in_words};
+use crate::design::{Design, in_words, registers_of};
 use crate::error::raise;
 use crate::frame::Grey;
 use crate::outcome::{KeptParts, Outcome};
-use crate::registers::registers_of;
-use crate::{config, tools};
+use crate::{commands, config};
 
 /// A camera that takes frames one by one.
 ///
@@ -74,30 +73,18 @@ pub(crate) struct Camera {
     state: Mutex<CameraState>,
 }
 
-/// The number of threads of a step; 0 means one per processor.
-#[derive(Clone, Copy)]
-struct Threads(usize);
-
-impl<'py> FromPyObject<'_, 'py> for Threads {
-    type Error = PyErr;
-
-    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        let right = format!("expected 1 to {MAX_THREADS}, or 0, which takes one per processor");
-        let wrong = format!("threads = {}: {right}", value.repr()?);
-        match value.extract() {
-            Ok(threads @ ..=MAX_THREADS) => Ok(Self(threads)),
-            _ if value.hasattr("__index__")? => Err(PyValueError::new_err(wrong)),
-            _ => Err(PyTypeError::new_err(wrong)),
-        }
+/// Returns the number of threads of a step; 0 means one per processor.
+fn thread_number(value: &Bound<'_, PyAny>) -> PyResult<usize> {
+    let right = format!("expected 1 to {MAX_THREADS}, or 0, which takes one per processor");
+    let wrong = format!("threads = {}: {right}", value.repr()?);
+    match value.extract() {
+        Ok(threads @ ..=MAX_THREADS) => Ok(threads),
+        _ if value.hasattr("__index__")? => Err(PyValueError::new_err(wrong)),
+        _ => Err(PyTypeError::new_err(wrong)),
     }
 }
 
 impl Camera {
-    /// Makes a camera that has seen no frame.
-    fn of(config: DesignConfig, threads: usize) -> Self {
-        Self { config, threads, state: Mutex::new(CameraState::new()) }
-    }
-
     pub(crate) fn config(&self) -> &DesignConfig {
         &self.config
     }
@@ -116,10 +103,10 @@ impl Camera {
     }
 
     /// Returns the screen after a step, if no later step has replaced it.
-    pub(crate) fn screen(&self, py: Python<'_>, step: u64) -> PyResult<Screen> {
+    pub(crate) fn screen(&self, py: Python<'_>, step: u64) -> PyResult<Py<PyAny>> {
         let state = self.lock_state()?;
         let own = state.engine_after(step, "rendered frame is", "rendered")?;
-        Ok(Screen::of(py, &own.design, own.engine.rendered()))
+        screen(py, &own.design, own.engine.rendered())
     }
 
     /// Returns the values that were sent in a step, if no later step has replaced them.
@@ -137,15 +124,15 @@ impl Camera {
 #[pymethods]
 impl Camera {
     #[new]
-    #[pyo3(signature = (config=None, /, *, threads=Threads(1), **sections), text_signature = "(config=None, /, *, threads=1, frame=None, region=None, denoise=None, spatial=None, decision=None, temporal=None, render=None, periphery=None, zones=None, hardware=None)")]
+    #[pyo3(signature = (config=None, /, *, threads=1, **sections), text_signature = "(config=None, /, *, threads=1, frame=None, region=None, denoise=None, spatial=None, decision=None, temporal=None, render=None, periphery=None, zones=None, hardware=None)")]
     fn new(
         config: Option<&Bound<'_, PyAny>>,
-        threads: Threads,
+        #[pyo3(from_py_with = thread_number)] threads: usize,
         sections: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         let config = config::read(config, sections)?;
         config.validate().map_err(raise)?;
-        Ok(Self::of(config, threads.0))
+        Ok(Self { config, threads, state: Mutex::default() })
     }
 
     /// The design. After the first frame it has the size of the frames.
@@ -237,7 +224,7 @@ impl Camera {
     fn step(
         slf: &Bound<'_, Self>,
         frame: &Bound<'_, PyAny>,
-        time_us: Option<MicroSeconds>,
+        #[pyo3(from_py_with = microseconds)] time_us: Option<u64>,
         keep: bool,
     ) -> PyResult<Outcome> {
         let (py, camera) = (slf.py(), slf.get());
@@ -245,21 +232,11 @@ impl Camera {
         let mut guard = camera.lock_state()?;
         let state = &mut *guard;
         let number = state.frames;
-        let time_us = state.clock.next(number, time_us.map(|MicroSeconds(time)| time))?;
+        let time_us = state.clock.next(number, time_us)?;
         // A frame of a wrong type is refused before it can change the size of the camera.
         grey.check(camera.config.camera.frame.pixel_bits)?;
         camera.fit(state, grey.size())?;
-        match &grey {
-            Grey::Bytes(array) => {
-                let view = array.as_array();
-                py.detach(|| state.take_bytes(&view))
-            }
-            Grey::Words(array) => {
-                let view = array.as_array();
-                py.detach(|| state.take_words(&view))
-            }
-        }
-        .map_err(raise)?;
+        state.take_array(py, &grey)?;
         state.clock.take(number, time_us);
         let sized_engine = state.sized_engine.as_ref().expect("it has taken a frame");
         let record = FrameRecord {
@@ -272,13 +249,14 @@ impl Camera {
             label: None,
             classes: sized_engine.classes(),
         };
-        let kept = keep.then(|| KeptParts {
-            screen: Screen::of(py, &sized_engine.design, sized_engine.engine.rendered()),
-            values: sized_engine.sent_values(),
+        let kept = keep.then(|| -> PyResult<_> {
+            let screen = screen(py, &sized_engine.design, sized_engine.engine.rendered())?;
+            Ok(KeptParts { screen, values: sized_engine.sent_values() })
         });
         let step = state.steps;
         drop(guard);
-        Ok(Outcome::of_camera(py, record, slf.clone().unbind(), step, kept))
+        let camera = Some((slf.clone().unbind(), step));
+        Ok(Outcome::new(py, record, None, camera, kept.transpose()?))
     }
 
     /// Take the next frames, all of a clip, and stack the outcomes.
@@ -361,12 +339,12 @@ impl Camera {
         force: bool,
         prefix: Option<&str>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        tools::generate_of(slf, folder, force, prefix)
+        commands::generate_of(slf, folder, force, prefix)
     }
 
     /// Estimate area and logic levels of the design; see `foveate.estimate`. A camera without a size must have seen a frame.
     fn estimate<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        tools::estimate_of(slf)
+        commands::estimate_of(slf)
     }
 
     /// List the registers of a core of this design on AXI.
@@ -406,10 +384,13 @@ impl Camera {
 
     #[staticmethod]
     #[pyo3(signature = (text, threads, map=None))]
-    fn _from_toml(text: &str, threads: Threads, map: Option<PickledMap>) -> PyResult<Self> {
+    fn _from_toml(
+        text: &str,
+        #[pyo3(from_py_with = thread_number)] threads: usize,
+        map: Option<PickledMap>,
+    ) -> PyResult<Self> {
         let config = DesignConfig::from_toml(text).map_err(raise)?;
-        let Some(map) = map else { return Ok(Self::of(config, threads.0)) };
-        let state = CameraState::with_map(&config, threads.0, map)?;
-        Ok(Self { state: Mutex::new(state), ..Self::of(config, threads.0) })
+        let state = map.map(|map| CameraState::with_map(&config, threads, map)).transpose()?;
+        Ok(Self { config, threads, state: Mutex::new(state.unwrap_or_default()) })
     }
 }

@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 use super::outcome::RegionClasses;
 use super::timed_camera::StepClock;
 use crate::error::raise;
-use crate::frame::{check_size, design_of_size, rows};
+use crate::frame::{Grey, Scratch, check_size, design_of_size, rows, size_of};
 
 /// The engine for frames of the size of the first frame.
 pub(crate) struct SizedEngine {
@@ -69,6 +69,8 @@ pub(crate) type PickledMap = ((usize, usize), Vec<u8>, u64);
 pub(crate) const NO_SIZE: &str = "this camera has no size yet: it takes that of its first frame, so show it one, or give the size, \
                        frame={\"width\": 640, \"height\": 480}";
 
+/// The state of a camera. The default is that of a camera that has seen no frame.
+#[derive(Default)]
 pub(crate) struct CameraState {
     /// The engine, which is kept after a reset for frames of the same size.
     pub(crate) sized_engine: Option<SizedEngine>,
@@ -80,24 +82,10 @@ pub(crate) struct CameraState {
     pub(crate) clock: StepClock,
     /// The process to which the threads belong.
     process: u32,
-    bytes: Vec<u8>,
-    words: Vec<u16>,
+    scratch: Scratch,
 }
 
 impl CameraState {
-    /// Makes the state of a camera that has seen no frame.
-    pub(crate) fn new() -> Self {
-        Self {
-            sized_engine: None,
-            frames: 0,
-            steps: 0,
-            clock: StepClock::default(),
-            process: std::process::id(),
-            bytes: Vec::new(),
-            words: Vec::new(),
-        }
-    }
-
     /// Returns the engine of a camera, and makes it first if the configuration has the size of frames.
     pub(crate) fn engine_of(
         &mut self,
@@ -135,10 +123,7 @@ impl CameraState {
         threads: usize,
         size: (usize, usize),
     ) -> PyResult<()> {
-        let own_size = self
-            .sized_engine
-            .as_ref()
-            .map(|own| (own.design.width() as usize, own.design.height() as usize));
+        let own_size = self.sized_engine.as_ref().map(|own| size_of(&own.design));
         if self.frames > 0 {
             if threads != 1 && self.process != std::process::id() {
                 return Err(PyRuntimeError::new_err(
@@ -164,7 +149,7 @@ impl CameraState {
     pub(crate) fn pickled_map(&self) -> Option<PickledMap> {
         let sized_engine = self.sized_engine.as_ref()?;
         let RegionClasses { map, maps_set } = sized_engine.assigned_map()?;
-        let size = (sized_engine.design.width() as usize, sized_engine.design.height() as usize);
+        let size = size_of(&sized_engine.design);
         Some((size, map.into_iter().map(RegionClass::code).collect(), maps_set))
     }
 
@@ -180,7 +165,8 @@ impl CameraState {
         let map = classes.ok_or_else(|| PyValueError::new_err("a code of zones is 0 to 3"))?;
         let mut sized_engine = SizedEngine::new(design_of_size(config, size)?, threads)?;
         sized_engine.continue_map(&RegionClasses { map, maps_set })?;
-        Ok(Self { sized_engine: Some(sized_engine), ..Self::new() })
+        let process = std::process::id();
+        Ok(Self { sized_engine: Some(sized_engine), process, ..Self::default() })
     }
 
     /// Takes a frame of the size and depth of the engine.
@@ -191,24 +177,21 @@ impl CameraState {
         Ok(())
     }
 
-    pub(crate) fn take_bytes(
-        &mut self,
-        view: &numpy::ndarray::ArrayView2<'_, u8>,
-    ) -> Result<(), EngineError> {
-        let Self { sized_engine, bytes, .. } = self;
-        let (pixels, stride) = rows(view, bytes);
-        sized_engine.as_mut().expect("made ready").engine.step_u8(pixels, stride)?;
-        self.count();
-        Ok(())
-    }
-
-    pub(crate) fn take_words(
-        &mut self,
-        view: &numpy::ndarray::ArrayView2<'_, u16>,
-    ) -> Result<(), EngineError> {
-        let Self { sized_engine, words, .. } = self;
-        let (pixels, stride) = rows(view, words);
-        sized_engine.as_mut().expect("made ready").engine.step_u16(pixels, stride)?;
+    /// Takes an array of the size and depth of the engine, without holding the interpreter.
+    pub(crate) fn take_array(&mut self, py: Python<'_>, frame: &Grey<'_>) -> PyResult<()> {
+        let Self { sized_engine, scratch, .. } = self;
+        let engine = &mut sized_engine.as_mut().expect("made ready").engine;
+        match frame {
+            Grey::Bytes(array) => {
+                let (pixels, stride) = rows(array.as_array(), &mut scratch.bytes);
+                py.detach(|| engine.step_u8(pixels, stride).map(|_| ()))
+            }
+            Grey::Words(array) => {
+                let (pixels, stride) = rows(array.as_array(), &mut scratch.words);
+                py.detach(|| engine.step_u16(pixels, stride).map(|_| ()))
+            }
+        }
+        .map_err(raise)?;
         self.count();
         Ok(())
     }

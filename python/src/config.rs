@@ -13,6 +13,7 @@ use toml::{Table, Value};
 use crate::camera::Camera;
 use crate::design::Design;
 use crate::error::{os_error, raise};
+use crate::inputs::option_names;
 
 /// Returns the configuration of `source` with changes by `sections`, such as `{"region": {"size": 16}}`.
 pub(crate) fn read(
@@ -71,26 +72,13 @@ fn toml_of(source: &Bound<'_, PyAny>) -> PyResult<String> {
     })
 }
 
-/// The tables of a configuration that are arguments of cameras and designs. None changes nothing.
-const SECTIONS: [&str; 10] = [
-    "frame",
-    "region",
-    "denoise",
-    "spatial",
-    "decision",
-    "temporal",
-    "render",
-    "periphery",
-    "zones",
-    "hardware",
-];
-
 /// Returns the changed keys by their names in the command line's `--set`.
 fn overrides(sections: &Bound<'_, PyDict>) -> PyResult<Vec<String>> {
     let mut found = Vec::new();
+    let known = option_names(sections.py(), "Sections")?;
     for (name, value) in sections.iter() {
         let name: String = name.extract()?;
-        if value.is_none() && SECTIONS.contains(&name.as_str()) {
+        if value.is_none() && known.contains(&name) {
             continue;
         }
         if name == "spatial" {
@@ -103,7 +91,7 @@ fn overrides(sections: &Bound<'_, PyDict>) -> PyResult<Vec<String>> {
                 value.get_type().name()?
             )));
         };
-        if keys.is_empty() && !SECTIONS.contains(&name.as_str()) {
+        if keys.is_empty() && !known.contains(&name) {
             // An unknown table is refused by its name, even if it has no keys.
             found.push(format!("{name}={{}}"));
         }

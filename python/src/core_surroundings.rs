@@ -5,7 +5,8 @@ use std::fmt::Display;
 use std::ops::Range;
 use std::path::PathBuf;
 
-use foveate_timed::SinkPattern;
+use foveate_design::Design;
+use foveate_timed::{SinkPattern, TimedClip};
 use numpy::{
     Element, PyArray2, PyArrayDescrMethods, PyArrayMethods, PyUntypedArray, PyUntypedArrayMethods,
 };
@@ -27,110 +28,103 @@ impl CoreSurroundings {
     pub(crate) const OPTIONS: [&'static str; 3] = ["clock_hz", "sink_rate", "sink_stalls"];
 
     pub(crate) fn from_options(
-        clock_hz: Option<ClockFrequency>,
-        sink_rate: Option<SinkRate>,
-        sink_stalls: Option<SinkStalls>,
+        clock_hz: Option<u64>,
+        sink_rate: Option<SinkPattern>,
+        sink_stalls: Option<SinkPattern>,
     ) -> PyResult<Self> {
-        let sink = match (sink_rate, sink_stalls) {
-            (Some(_), Some(_)) => {
-                return Err(PyTypeError::new_err("give sink_rate or sink_stalls, not both"));
-            }
-            (Some(SinkRate(sink)), None) => sink,
-            (None, Some(SinkStalls(stalls))) => SinkPattern::Stalls(stalls.into()),
-            (None, None) => SinkPattern::Always,
-        };
-        Ok(Self { clock_hz: clock_hz.map(|ClockFrequency(hz)| hz), sink })
-    }
-}
-
-/// The frequency of a clock in Hz.
-pub(crate) struct ClockFrequency(u64);
-
-impl<'py> FromPyObject<'_, 'py> for ClockFrequency {
-    type Error = PyErr;
-
-    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        let wrong = format!(
-            "clock_hz = {}: expected a whole number of Hz, 1 to {MAX_CLOCK_HZ}, for example 100e6",
-            value.repr()?
-        );
-        // Numbers up to the largest frequency are exact.
-        #[allow(
-            clippy::cast_possible_truncation,
-            clippy::cast_precision_loss,
-            clippy::cast_sign_loss,
-            reason = "the number is whole and in the range"
-        )]
-        match value.extract::<f64>() {
-            Ok(hz) if hz.fract() == 0.0 && (1.0..=MAX_CLOCK_HZ as f64).contains(&hz) => {
-                Ok(Self(hz as u64))
-            }
-            Err(_) if !value.hasattr("__index__")? => Err(PyTypeError::new_err(wrong)),
-            _ => Err(PyValueError::new_err(wrong)),
+        if sink_rate.is_some() && sink_stalls.is_some() {
+            return Err(PyTypeError::new_err("give sink_rate or sink_stalls, not both"));
         }
+        let sink = sink_rate.or(sink_stalls).unwrap_or(SinkPattern::Always);
+        Ok(Self { clock_hz, sink })
+    }
+
+    /// Makes a core that has seen no frame.
+    pub(crate) fn clip(&self, design: &Design) -> TimedClip {
+        TimedClip::new(design, self.clock_hz, &self.sink)
     }
 }
 
-/// The rate of a sink: words and clocks.
-pub(crate) struct SinkRate(SinkPattern);
-
-impl<'py> FromPyObject<'_, 'py> for SinkRate {
-    type Error = PyErr;
-
-    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        let wrong = format!(
-            "sink_rate = {}: expected (words, clocks), whole numbers with at most as many words as clocks, for \
-             example (1, 4)",
-            value.repr()?
-        );
-        if !value.is_instance_of::<PyTuple>() {
-            return Err(PyTypeError::new_err(wrong));
+/// Returns the frequency of a clock in Hz.
+pub(crate) fn clock_frequency(value: &Bound<'_, PyAny>) -> PyResult<Option<u64>> {
+    if value.is_none() {
+        return Ok(None);
+    }
+    let wrong = format!(
+        "clock_hz = {}: expected a whole number of Hz, 1 to {MAX_CLOCK_HZ}, for example 100e6",
+        value.repr()?
+    );
+    // Numbers up to the largest frequency are exact.
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_precision_loss,
+        clippy::cast_sign_loss,
+        reason = "the number is whole and in the range"
+    )]
+    match value.extract::<f64>() {
+        Ok(hz) if hz.fract() == 0.0 && (1.0..=MAX_CLOCK_HZ as f64).contains(&hz) => {
+            Ok(Some(hz as u64))
         }
-        let rate = value.extract().ok();
-        rate.and_then(|(words, clocks)| SinkPattern::from_rate(words, clocks))
-            .map(Self)
-            .ok_or_else(|| PyValueError::new_err(wrong))
+        Err(_) if !value.hasattr("__index__")? => Err(PyTypeError::new_err(wrong)),
+        _ => Err(PyValueError::new_err(wrong)),
     }
 }
 
-/// The stalls of a sink, in order and without overlaps.
-pub(crate) struct SinkStalls(Vec<Range<u64>>);
+/// Returns a sink that takes words at a rate: words and clocks.
+pub(crate) fn sink_of_rate(value: &Bound<'_, PyAny>) -> PyResult<Option<SinkPattern>> {
+    if value.is_none() {
+        return Ok(None);
+    }
+    let wrong = format!(
+        "sink_rate = {}: expected (words, clocks), whole numbers with at most as many words as clocks, for \
+         example (1, 4)",
+        value.repr()?
+    );
+    if !value.is_instance_of::<PyTuple>() {
+        return Err(PyTypeError::new_err(wrong));
+    }
+    let rate = value.extract().ok();
+    let sink = rate.and_then(|(words, clocks)| SinkPattern::from_rate(words, clocks));
+    sink.map(Some).ok_or_else(|| PyValueError::new_err(wrong))
+}
 
 /// The right form of stalls, for messages.
 const STALL_FORM: &str = "sink_stalls are an array of whole numbers of the shape (stalls, 2): the first clock of each \
                           stall, and its number of clocks";
 
-impl<'py> FromPyObject<'_, 'py> for SinkStalls {
-    type Error = PyErr;
-
-    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        if value.extract::<PathBuf>().is_ok() {
+/// Returns a sink with stalls, which are in order and do not overlap.
+pub(crate) fn sink_of_stalls(value: &Bound<'_, PyAny>) -> PyResult<Option<SinkPattern>> {
+    if value.is_none() {
+        return Ok(None);
+    }
+    if value.extract::<PathBuf>().is_ok() {
+        return Err(PyTypeError::new_err(format!(
+            "{STALL_FORM}; not a path: numpy.loadtxt(path, int, delimiter=\",\", skiprows=1, ndmin=2) reads a table"
+        )));
+    }
+    let array = value.py().import("numpy")?.call_method1("asarray", (value,));
+    let array = array
+        .map_err(|error| {
+            PyValueError::new_err(format!("{STALL_FORM}; {}", error.value(value.py())))
+        })?
+        .cast_into::<PyUntypedArray>()?;
+    let is_empty = array.ndim() > 0 && array.len() == 0;
+    if !is_empty && (array.ndim() != 2 || array.shape()[1] != 2) {
+        let shape = array.getattr("shape")?;
+        return Err(PyValueError::new_err(format!("{STALL_FORM}; not of the shape {shape}")));
+    }
+    let stalls = match array.dtype().kind() {
+        _ if is_empty => Vec::new(),
+        b'i' => stalls_of::<i64>(&array, "int64")?,
+        b'u' => stalls_of::<u64>(&array, "uint64")?,
+        _ => {
             return Err(PyTypeError::new_err(format!(
-                "{STALL_FORM}; not a path: numpy.loadtxt(path, int, delimiter=\",\", skiprows=1, ndmin=2) reads a table"
-            )));
-        }
-        let array = value.py().import("numpy")?.call_method1("asarray", (value,));
-        let array = array
-            .map_err(|error| {
-                PyValueError::new_err(format!("{STALL_FORM}; {}", error.value(value.py())))
-            })?
-            .cast_into::<PyUntypedArray>()?;
-        if array.ndim() > 0 && array.len() == 0 {
-            return Ok(Self(Vec::new()));
-        }
-        if array.ndim() != 2 || array.shape()[1] != 2 {
-            let shape = array.getattr("shape")?;
-            return Err(PyValueError::new_err(format!("{STALL_FORM}; not of the shape {shape}")));
-        }
-        match array.dtype().kind() {
-            b'i' => stalls_of::<i64>(&array, "int64").map(Self),
-            b'u' => stalls_of::<u64>(&array, "uint64").map(Self),
-            _ => Err(PyTypeError::new_err(format!(
                 "{STALL_FORM}; not of {}; convert them, for example with stalls.astype(int)",
                 array.dtype().str()?
-            ))),
+            )));
         }
-    }
+    };
+    Ok(Some(SinkPattern::Stalls(stalls.into())))
 }
 
 /// Returns the stalls in an array with two columns, whose values have the type `dtype` after a conversion without loss.

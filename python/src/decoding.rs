@@ -6,12 +6,11 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use foveate_pixels::ByteFrame;
 use foveate_simulator::{PacketStream, ShownFrame, SimulatorError, StreamItem, StreamLoss};
-use numpy::{PyArray2, PyArray3, PyUntypedArray};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
-use pyo3::types::{PyBytes, PyDict, PyString, PyTuple};
+use pyo3::types::{PyBytes, PyString, PyTuple};
 
-use super::array::{RegionArrays, RegionResults, Screen};
+use crate::array::{self, RegionArrays};
 use crate::config;
 use crate::design::Design;
 use crate::error::raise;
@@ -133,7 +132,7 @@ impl Decoding {
 #[pyclass(frozen, module = "foveate")]
 pub(crate) struct DecodedFrame {
     received: ReceivedFrame,
-    screen: Screen,
+    screen: Py<PyAny>,
     losses: Py<PyTuple>,
     arrays: RegionArrays,
 }
@@ -142,15 +141,15 @@ impl DecodedFrame {
     fn of(py: Python<'_>, received: ReceivedFrame) -> PyResult<Self> {
         let screen: &ByteFrame = &received.shown.screen;
         Ok(Self {
-            screen: Screen::of(py, &received.design, screen.borrowed_pixels()),
+            screen: array::screen(py, &received.design, screen.borrowed_pixels())?,
             losses: losses_in_python(py, &received.losses)?.unbind(),
-            arrays: RegionArrays::new(),
+            arrays: RegionArrays::new(py),
             received,
         })
     }
 
-    fn results(&self) -> RegionResults<'_> {
-        RegionResults { design: &self.received.design, result: &self.received.shown.outcome }
+    fn array<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        self.arrays.get(py, name, &self.received.design, &self.received.shown.outcome)
     }
 }
 
@@ -182,51 +181,51 @@ impl DecodedFrame {
 
     /// The frame on the receiver's screen: array of uint8 or uint16, shape (height, width).
     #[getter]
-    fn rendered(&self, py: Python<'_>) -> Py<PyUntypedArray> {
-        self.screen.0.clone_ref(py)
+    fn rendered(&self, py: Python<'_>) -> Py<PyAny> {
+        self.screen.clone_ref(py)
     }
 
     /// Spatial relevance, False where it is lost: array of bool, shape (rows, columns).
     #[getter]
-    fn srs(&self, py: Python<'_>) -> Py<PyArray2<bool>> {
-        self.arrays.srs(py, self.results())
+    fn srs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.array(py, "srs")
     }
 
     /// Temporal relevance, False where it is lost: array of bool, shape (rows, columns).
     #[getter]
-    fn trs(&self, py: Python<'_>) -> Py<PyArray2<bool>> {
-        self.arrays.trs(py, self.results())
+    fn trs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.array(py, "trs")
     }
 
     /// Regions that are relevant in space and in time: array of bool, shape (rows, columns).
     #[getter]
-    fn active(&self, py: Python<'_>) -> Py<PyArray2<bool>> {
-        self.arrays.active(py, self.results())
+    fn active<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.array(py, "active")
     }
 
     /// The action of each region on the screen, an index into `foveate.ACTIONS`: array of uint8, shape (rows, columns).
     #[getter]
-    fn action(&self, py: Python<'_>) -> Py<PyArray2<u8>> {
-        self.arrays.action(py, self.results())
+    fn action<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.array(py, "action")
     }
 
     /// Number of changed pixels of a region: array of int64, shape (rows, columns); None for a stream without scores.
     #[getter]
-    fn changed(&self, py: Python<'_>) -> Option<Py<PyArray2<i64>>> {
-        self.received.has_scores.then(|| self.arrays.changed(py, self.results()))
+    fn changed<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        self.received.has_scores.then(|| self.array(py, "changed")).transpose()
     }
 
     /// Scores by feature: dict of str to array of int64, shape (rows, columns); None for a stream without scores.
     #[getter]
-    fn scores(&self, py: Python<'_>) -> PyResult<Option<Py<PyDict>>> {
-        self.received.has_scores.then(|| self.arrays.scores(py, self.results())).transpose()
+    fn scores<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyAny>>> {
+        self.received.has_scores.then(|| self.array(py, "scores")).transpose()
     }
 
     /// Movement of the content of each region since its reference, [dx, dy] in pixels to the right and down: array of int8,
     /// shape (rows, columns, 2); None for a design without the feature `flow`.
     #[getter]
-    fn displacements(&self, py: Python<'_>) -> Option<Py<PyArray3<i8>>> {
-        self.arrays.displacements(py, self.results())
+    fn displacements<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.array(py, "displacements")
     }
 
     /// The losses in this frame, and between it and the one before: tuple of StreamLoss.

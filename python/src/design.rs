@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! An immutable design.
+//! An immutable design, and the table of its registers.
 
 use foveate_design::{DesignConfig, PRESETS};
+use foveate_emit::{Register, RegisterField, register_table};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple, PyType};
 
-use crate::config;
-use crate::error::raise;
-use crate::registers::registers_of;
-use crate::tools;
+use crate::error::{raise, value_error};
+use crate::{commands, config};
 
 /// A validated configuration with the numbers that follow from it. Immutable, hashable, and can be pickled.
 ///
@@ -191,12 +190,12 @@ impl Design {
         force: bool,
         prefix: Option<&str>,
     ) -> PyResult<Bound<'py, PyAny>> {
-        tools::generate_of(slf, folder, force, prefix)
+        commands::generate_of(slf, folder, force, prefix)
     }
 
     /// Estimate area and logic levels of the design; see `foveate.estimate`.
     fn estimate<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        tools::estimate_of(slf)
+        commands::estimate_of(slf)
     }
 
     /// List the registers of a core of this design on AXI.
@@ -253,4 +252,36 @@ pub(crate) fn in_words(design: &foveate_design::Design) -> String {
         design.config().hardware.description(),
         n = design.region_size(),
     )
+}
+
+/// A field of a register: name, lowest bit, width, access, value after a reset, and description.
+type FieldRow = (String, u32, u32, &'static str, Option<u32>, String);
+/// A register: name, address, description, and fields.
+type Row = (String, u32, String, Vec<FieldRow>);
+
+fn field(own: RegisterField) -> FieldRow {
+    let RegisterField { name, low, width, kind, doc } = own;
+    (name, low, width, kind.access(), kind.reset(), doc)
+}
+
+fn row(own: Register) -> Row {
+    let Register { name, address, fields, doc } = own;
+    (name, address, doc, fields.into_iter().map(field).collect())
+}
+
+/// Returns the table of a design's registers, or the reason why it has none.
+pub(crate) fn registers_of<'py>(py: Python<'py>, design: &Design) -> PyResult<Bound<'py, PyAny>> {
+    let inner = design.inner();
+    let Some(table) = register_table(inner) else {
+        return Err(value_error(format!(
+            "design {} has no registers, because it is not on AXI: organization `{}`, interface \
+             `{}`; only designs with hardware.organization = 'raster' and hardware.interface = \
+             'axi' have registers",
+            inner.fingerprint(),
+            inner.organization().name(),
+            inner.interface_kind().name(),
+        )));
+    };
+    let rows: Vec<Row> = table.into_iter().map(row).collect();
+    py.import("foveate._registers")?.call_method1("table", (rows,))
 }

@@ -16,7 +16,7 @@ use foveate_simulator::SimulatorError;
 use foveate_timed::TimedError;
 use foveate_tools::{StagingError, ToolError as Tool};
 use pyo3::exceptions::{
-    PyFileExistsError, PyFileNotFoundError, PyIsADirectoryError, PyKeyboardInterrupt,
+    PyFileExistsError, PyFileNotFoundError, PyIndexError, PyIsADirectoryError, PyKeyboardInterrupt,
     PyNotADirectoryError, PyOSError, PyPermissionError, PyRuntimeError, PyValueError,
 };
 use pyo3::{PyErr, create_exception};
@@ -82,130 +82,73 @@ fn unread(path: &Path, message: String) -> PyErr {
     )
 }
 
-impl Raise for ConfigError {
-    fn raise(self) -> PyErr {
-        value_error(self)
-    }
-}
-
-impl Raise for EngineError {
-    fn raise(self) -> PyErr {
-        match self {
-            Self::Threads { .. } => PyRuntimeError::new_err(self.to_string()),
-            _ => value_error(self),
-        }
-    }
-}
-
-impl Raise for TimedError {
-    fn raise(self) -> PyErr {
-        match self {
-            Self::Engine(error) => error.raise(),
-            _ => value_error(self),
-        }
-    }
-}
-
-impl Raise for Tool {
-    fn raise(self) -> PyErr {
-        match self {
-            _ if self.is_interrupted() => PyKeyboardInterrupt::new_err(()),
-            _ => ToolError::new_err(self.to_string()),
-        }
-    }
-}
-
-impl Raise for FootageError {
-    fn raise(self) -> PyErr {
-        match self {
-            Self::Missing { .. } => PyFileNotFoundError::new_err(self.to_string()),
-            Self::Unreadable { ref path, .. } => unread(path, self.to_string()),
-            Self::Tool(error) => error.raise(),
-            _ => behind(&self),
-        }
-    }
-}
-
-impl Raise for InputError {
-    fn raise(self) -> PyErr {
-        match self {
-            Self::Footage(error) => error.raise(),
-            Self::Boxes(BoxError::Missing { .. }) => PyFileNotFoundError::new_err(self.to_string()),
-            Self::RefusedFrame(error) => error.raise(),
-            _ => behind(&self),
-        }
-    }
-}
-
-impl Raise for PlaybackError {
-    fn raise(self) -> PyErr {
-        match self {
-            Self::Input(error) => error.raise(),
-            Self::Tool(error) => error.raise(),
-            Self::Interrupted => PyKeyboardInterrupt::new_err(()),
-        }
-    }
-}
-
-impl Raise for StagingError {
-    fn raise(self) -> PyErr {
-        match self {
-            Self::Unwritable { ref source, .. } => os_error(source, self.to_string()),
-            // An option of the command line is an argument of a function here.
-            _ => PyFileExistsError::new_err(self.to_string().replace("--force", "force=True")),
-        }
-    }
-}
-
-impl Raise for SimulatorError {
-    fn raise(self) -> PyErr {
-        match self {
-            Self::Playback(error) => error.raise(),
-            Self::Output(error) => error.raise(),
-            Self::Tool(error) => error.raise(),
-            Self::NoSuchRegion { .. } | Self::NoSuchFrame { .. } => {
-                pyo3::exceptions::PyIndexError::new_err(self.to_string())
+/// Defines the exceptions of errors. A variant that is not listed is a fault of a value, or of a file behind it.
+macro_rules! raise_as {
+    ($message:ident: $($error:ty { $($variant:pat => $raised:expr,)* })*) => {$(
+        impl Raise for $error {
+            #[allow(unreachable_patterns, unused_variables, reason = "some errors list all variants")]
+            fn raise(self) -> PyErr {
+                let $message = self.to_string();
+                match self {
+                    $($variant => $raised,)*
+                    _ => behind(&self),
+                }
             }
-            _ => behind(&self),
         }
-    }
+    )*};
 }
 
-impl Raise for ExploreError {
-    fn raise(self) -> PyErr {
-        match self {
-            Self::Playback(error) => error.raise(),
-            _ => behind(&self),
-        }
+raise_as! { message:
+    ConfigError {}
+    EngineError {
+        Self::Threads { .. } => PyRuntimeError::new_err(message),
     }
-}
-
-impl Raise for InferenceError {
-    fn raise(self) -> PyErr {
-        match self {
-            Self::Playback(error) => error.raise(),
-            Self::Output(error) => error.raise(),
-            _ => behind(&self),
-        }
+    TimedError {
+        Self::Engine(error) => error.raise(),
     }
-}
-
-impl Raise for CosimError {
-    fn raise(self) -> PyErr {
-        match self {
-            _ if self.is_interrupted() => PyKeyboardInterrupt::new_err(()),
-            Self::Tool(error) => error.raise(),
-            Self::Output(error) => error.raise(),
-            _ => behind(&self),
-        }
+    Tool {
+        Self::Interrupted => PyKeyboardInterrupt::new_err(()),
+        _ => ToolError::new_err(message),
     }
-}
-
-impl Raise for EstimateError {
-    fn raise(self) -> PyErr {
-        match self {
-            Self::Tool(error) => error.raise(),
-            _ => ToolError::new_err(self.to_string()),
-        }
+    FootageError {
+        Self::Missing { .. } => PyFileNotFoundError::new_err(message),
+        Self::Unreadable { ref path, .. } => unread(path, message),
+        Self::Tool(error) => error.raise(),
+    }
+    InputError {
+        Self::Footage(error) => error.raise(),
+        Self::Boxes(BoxError::Missing { .. }) => PyFileNotFoundError::new_err(message),
+        Self::RefusedFrame(error) => error.raise(),
+    }
+    PlaybackError {
+        Self::Input(error) => error.raise(),
+        Self::Tool(error) => error.raise(),
+        Self::Interrupted => PyKeyboardInterrupt::new_err(()),
+    }
+    StagingError {
+        Self::Unwritable { ref source, .. } => os_error(source, message),
+        // An option of the command line is an argument of a function here.
+        _ => PyFileExistsError::new_err(message.replace("--force", "force=True")),
+    }
+    SimulatorError {
+        Self::Playback(error) => error.raise(),
+        Self::Output(error) => error.raise(),
+        Self::Tool(error) => error.raise(),
+        Self::NoSuchRegion { .. } | Self::NoSuchFrame { .. } => PyIndexError::new_err(message),
+    }
+    ExploreError {
+        Self::Playback(error) => error.raise(),
+    }
+    InferenceError {
+        Self::Playback(error) => error.raise(),
+        Self::Output(error) => error.raise(),
+    }
+    CosimError {
+        Self::Tool(error) => error.raise(),
+        Self::Output(error) => error.raise(),
+    }
+    EstimateError {
+        Self::Tool(error) => error.raise(),
+        _ => ToolError::new_err(message),
     }
 }

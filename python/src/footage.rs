@@ -16,15 +16,11 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use super::array::Screen;
-use super::clip_run::{ClipInputs, problem_text, warn_of_problem};
-use super::outcome::{FrameRecord, RegionClasses};
-use crate::array::{conversion, untyped};
-use crate::config;
+use crate::array::{self, conversion, untyped};
 use crate::design::{Design, in_words};
 use crate::error::raise;
-use crate::options::input_options;
-use crate::outcome::{KeptParts, Outcome};
+use crate::inputs::{ClipRequest, problem_text, warn_of_problem};
+use crate::outcome::{FrameRecord, KeptParts, Outcome, RegionClasses};
 use crate::work::at_once;
 
 /// A run over footage, made by `simulate`: an iterator of outcomes that holds one frame at a time.
@@ -96,9 +92,9 @@ impl Run {
             warn_of_problem(py, self.problem(py))?;
             return Ok(None);
         };
-        let array = |raster: &ByteFrame| Screen::of(py, &self.design, raster.borrowed_pixels());
-        let kept = KeptParts { screen: array(&screen), values };
-        Ok(Some(Outcome::of_run(py, record, array(&frame.frame), kept)))
+        let array = |frame: &ByteFrame| array::screen(py, &self.design, frame.borrowed_pixels());
+        let kept = KeptParts { screen: array(&screen)?, values };
+        Ok(Some(Outcome::new(py, record, Some(array(&frame.frame)?), None, Some(kept))))
     }
 
     fn __repr__(&self) -> String {
@@ -212,14 +208,11 @@ pub(crate) fn simulate(
     camera: Option<&Bound<'_, PyAny>>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Run> {
-    let options = input_options("simulate", &[], options)?;
-    let config = config::read(camera, None)?;
-    let inputs = ClipInputs::of("simulate", inputs, config.camera.frame.pixel_bits)?;
-    inputs.warn_of_skipped(py, &options)?;
+    let mut request = ClipRequest::new(("simulate", &[]), inputs, camera, options)?;
     at_once(py, move || -> PyResult<Run> {
-        let player = inputs.open(&config.camera, &options)?;
+        let player = request.open()?;
         let (width, height) = player.size();
-        let design = config.validate_for_frames(width, height).map_err(raise)?;
+        let design = request.config.validate_for_frames(width, height).map_err(raise)?;
         let (total, engine) = (player.frames(), Engine::new(&design));
         let state = RunState { player, engine };
         Ok(Run { design: Arc::new(design), total, state: Mutex::new(state) })

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Frames from Python: arrays of any layout. Rows whose pixels are adjacent are read in place.
 
-use foveate_design::DesignConfig;
-use foveate_pixels::ByteFrame;
+use foveate_design::{Design, DesignConfig};
+use foveate_pixels::{ByteFrame, FramePixels};
 use numpy::ndarray::ArrayView2;
 use numpy::{
     Element, PyArrayDescrMethods, PyArrayMethods, PyReadonlyArray2, PyUntypedArray,
@@ -74,31 +74,26 @@ impl<'py> Grey<'py> {
         }
     }
 
-    /// Refuses a frame of another size than the frames before it.
-    pub(crate) fn check_size(&self, own: (usize, usize)) -> PyResult<()> {
-        check_size(self.size(), own)
-    }
-
-    /// Returns the design of a configuration for frames of this size.
-    pub(crate) fn design(&self, config: &DesignConfig) -> PyResult<foveate_design::Design> {
-        design_of_size(config, self.size())
+    /// Returns the pixels row by row without gaps: in place, or copied into `scratch` if there are gaps.
+    pub(crate) fn packed<'a>(&'a self, scratch: &'a mut Scratch) -> FramePixels<'a> {
+        match self {
+            Self::Bytes(array) => FramePixels::Bytes(packed(array.as_array(), &mut scratch.bytes)),
+            Self::Words(array) => FramePixels::Words(packed(array.as_array(), &mut scratch.words)),
+        }
     }
 
     /// Returns a copy of the frame with the depth of the design.
     pub(crate) fn raster(&self, bits: u32) -> PyResult<ByteFrame> {
         self.check(bits)?;
-        let (width, height) = self.size();
-        let side = |side: usize| u32::try_from(side).unwrap_or(u32::MAX);
-        let (width, height) = (side(width), side(height));
+        let (width, height) = sides(self.size());
         match self {
             Self::Bytes(array) => {
                 let pixels = array.as_array().iter().copied().collect();
-                ByteFrame::from_bytes(width, height, bits, pixels).map_err(value_error)
+                ByteFrame::from_bytes(width, height, bits, pixels)
             }
-            Self::Words(_) => {
-                ByteFrame::from_words(width, height, bits, self.values()).map_err(value_error)
-            }
+            Self::Words(_) => ByteFrame::from_words(width, height, bits, self.values()),
         }
+        .map_err(value_error)
     }
 
     /// Returns a copy of the pixels, row by row.
@@ -131,12 +126,19 @@ pub(crate) fn check_size((width, height): (usize, usize), own: (usize, usize)) -
     )))
 }
 
-pub(crate) fn design_of_size(
-    config: &DesignConfig,
-    (width, height): (usize, usize),
-) -> PyResult<foveate_design::Design> {
+pub(crate) fn design_of_size(config: &DesignConfig, size: (usize, usize)) -> PyResult<Design> {
+    let (width, height) = sides(size);
+    config.validate_for_frames(width, height).map_err(raise)
+}
+
+/// Returns the width and height of the frames of a design.
+pub(crate) fn size_of(design: &Design) -> (usize, usize) {
+    (design.width() as usize, design.height() as usize)
+}
+
+fn sides((width, height): (usize, usize)) -> (u32, u32) {
     let side = |side: usize| u32::try_from(side).unwrap_or(u32::MAX);
-    config.validate_for_frames(side(width), side(height)).map_err(raise)
+    (side(width), side(height))
 }
 
 /// Describes how to make a frame of a value that is none.
@@ -150,10 +152,17 @@ fn hint(shape: &[usize]) -> &'static str {
     }
 }
 
+/// Memory for pixels that cannot be read in place.
+#[derive(Default)]
+pub(crate) struct Scratch {
+    pub(crate) bytes: Vec<u8>,
+    pub(crate) words: Vec<u16>,
+}
+
 /// Returns the pixels and the distance of their rows: in place, or copied into `scratch` if the pixels of a row are not
 /// adjacent, or if rows overlap or are in reverse order.
 pub(crate) fn rows<'a, T: Copy>(
-    view: &'a ArrayView2<'_, T>,
+    view: ArrayView2<'a, T>,
     scratch: &'a mut Vec<T>,
 ) -> (&'a [T], usize) {
     let (height, width) = view.dim();
@@ -169,17 +178,11 @@ pub(crate) fn rows<'a, T: Copy>(
         let values = unsafe { std::slice::from_raw_parts(view.as_ptr(), len) };
         return (values, stride);
     }
-    scratch.clear();
-    scratch.reserve(width * height);
-    for row in view.rows() {
-        scratch.extend(row.iter().copied());
-    }
-    (scratch, width)
+    (packed(view, scratch), width)
 }
 
-/// Returns the pixels row by row without gaps: in place, or copied into `scratch` if there are gaps.
-pub(crate) fn packed<'a, T: Copy>(view: &'a ArrayView2<'_, T>, scratch: &'a mut Vec<T>) -> &'a [T] {
-    if let Some(pixels) = view.as_slice() {
+fn packed<'a, T: Copy>(view: ArrayView2<'a, T>, scratch: &'a mut Vec<T>) -> &'a [T] {
+    if let Some(pixels) = view.to_slice() {
         return pixels;
     }
     scratch.clear();

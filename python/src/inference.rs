@@ -9,16 +9,13 @@ use foveate_inference::{
     VisionOptions, parse_detector, parse_framing, parse_goal, parse_mode, parse_noise,
     read_accelerator,
 };
-use foveate_media::{PlaybackError, source_from_memory};
 use pyo3::exceptions::{PyIsADirectoryError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use super::clip_run::{ARRAY_NAME, ClipInputs, paths, warn_of_problem};
-use crate::config;
-use crate::error::raise;
-use crate::options::input_options;
-use crate::study::json;
+use crate::commands::json;
+use crate::error::{raise, value_error};
+use crate::inputs::{ClipInputs, ClipRequest, paths, warn_of_problem};
 use crate::work::{CancelFlag, interruptible};
 
 /// Returns the choices of a run by their names on the command line. They are removed from `options`, which keeps the options
@@ -27,11 +24,7 @@ fn chosen(
     options: &Bound<'_, PyDict>,
 ) -> PyResult<(InferenceOptions, VisionOptions, Vec<PathBuf>)> {
     let text = |name: &str| -> PyResult<Option<String>> {
-        let value = take(options, name)?;
-        Ok(value.map(|value| value.str()).transpose()?.map(|text| text.to_string()))
-    };
-    let wrong = |name: &'static str, value: String| {
-        move |problem: String| PyValueError::new_err(format!("{name} = {value:?}: {problem}"))
+        Ok(take(options, name)?.map(|value| value.str()).transpose()?.map(|text| text.to_string()))
     };
     let (mode, goal) = (text("mode")?, text("tune")?);
     if mode.is_some() && goal.is_some() {
@@ -41,9 +34,9 @@ fn chosen(
     }
     let mode = mode.unwrap_or_else(|| "exact".to_owned());
     let approximate = mode.starts_with("truncate") || mode == "fixed";
-    let computed = match goal {
-        Some(goal) => Computation::Tuned(parse_goal(&goal).map_err(wrong("tune", goal))?),
-        None => Computation::Mode(parse_mode(&mode).map_err(wrong("mode", mode))?),
+    let computation = match goal {
+        Some(goal) => Computation::Tuned(parsed("tune", &goal, parse_goal)?),
+        None => Computation::Mode(parsed("mode", &mode, parse_mode)?),
     };
     let accelerator = text("accelerator")?;
     let accelerator = accelerator.as_deref().map(read_accelerator).transpose().map_err(raise)?;
@@ -67,25 +60,21 @@ fn chosen(
     if let Some(wrong) = mapping.mean.iter().find(|value| !value.is_finite()) {
         return Err(PyValueError::new_err(format!("mean = {wrong}: expected finite numbers")));
     }
-    let framing = text("framing")?.unwrap_or_else(|| "same".to_owned());
-    let framing = parse_framing(&framing).map_err(wrong("framing", framing))?;
-    let detect = text("detect")?;
-    let detector = detect.map(|text| parse_detector(&text).map_err(wrong("detect", text)));
-    let detector = detector.transpose()?;
+    let framing = text("framing")?.map(|text| parsed("framing", &text, parse_framing));
+    let detector = text("detect")?.map(|text| parsed("detect", &text, parse_detector));
+    let (framing, detector) = (framing.transpose()?.unwrap_or_default(), detector.transpose()?);
     let boxes = take(options, "boxes")?.map_or(Ok(Vec::new()), |boxes| paths(&boxes))?;
     if !boxes.is_empty() && detector.is_none() {
         return Err(PyTypeError::new_err(
             "boxes are compared with detections: give detect, too, such as detect=\"yolox\"",
         ));
     }
-    let noise = text("noise")?.map(|text| parse_noise(&text).map_err(wrong("noise", text)));
-    let noise = noise.transpose()?;
-    let every = text("every")?.map_or(Ok(NonZeroU32::MIN), |text| {
-        let problem = "expected a whole number of at least 1".to_owned();
-        text.parse().map_err(|_| wrong("every", text)(problem))
-    })?;
+    let noise = text("noise")?.map(|text| parsed("noise", &text, parse_noise)).transpose()?;
+    let whole =
+        |text: &str| text.parse().map_err(|_| "expected a whole number of at least 1".into());
+    let every = text("every")?.map_or(Ok(NonZeroU32::MIN), |text| parsed("every", &text, whole))?;
     let options = InferenceOptions {
-        computation: computed,
+        computation,
         accelerator,
         with_whole_computation: flag("reference")? || approximate,
         record: RecordOptions { arrays: true, pictures: flag("pictures")? },
@@ -99,7 +88,7 @@ fn chosen(
 }
 
 /// Returns the names of all options that [`chosen`] takes, and of the arguments.
-pub(crate) const OWN: [&str; 18] = [
+const OWN: [&str; 18] = [
     "network",
     "inputs",
     "camera",
@@ -119,6 +108,11 @@ pub(crate) const OWN: [&str; 18] = [
     "detect",
     "boxes",
 ];
+
+/// Returns the meaning of an option.
+fn parsed<T>(name: &str, text: &str, parse: impl FnOnce(&str) -> Result<T, String>) -> PyResult<T> {
+    parse(text).map_err(|problem| value_error(format!("{name} = {text:?}: {problem}")))
+}
 
 /// Removes an option, and returns its value if it was given.
 fn take<'py>(options: &Bound<'py, PyDict>, name: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
@@ -144,22 +138,20 @@ pub(crate) fn infer(
     }
     let options = options.map_or_else(|| Ok(PyDict::new(py)), |options| options.copy())?;
     let (chosen, vision_options, boxes) = chosen(&options)?;
-    let input = input_options("infer", &OWN, Some(&options))?;
-    let config = config::read(camera, None)?;
-    let clip = ClipInputs::of("infer", inputs, config.camera.frame.pixel_bits)?;
-    clip.warn_of_skipped(py, &input)?;
+    let mut request = ClipRequest::new(("infer", &OWN), inputs, camera, Some(&options))?;
     let summary = interruptible(py, |cancel| {
-        let inference = match clip {
-            ClipInputs::Paths(paths) => {
-                Inference::new(&config, &network, vision_options, (&paths, &boxes), &input)
+        let inference = match &request.inputs {
+            // Several clips are several inputs of a network.
+            ClipInputs::Paths(inputs) => {
+                let inputs = (&inputs[..], &boxes[..]);
+                Inference::new(&request.config, &network, vision_options, inputs, &request.options)
             }
-            ClipInputs::Frames(frames) => source_from_memory(ARRAY_NAME, frames, &input)
-                .map_err(|error| PlaybackError::from(error).into())
-                .and_then(|source| {
-                    Inference::from_player(&config, &network, vision_options, (source, &boxes))
-                }),
-        }
-        .map_err(raise)?;
+            ClipInputs::Frames(_) => {
+                let inputs = (request.open()?, &boxes[..]);
+                Inference::from_player(&request.config, &network, vision_options, inputs)
+            }
+        };
+        let inference = inference.map_err(raise)?;
         inference.run(&output, &chosen, &CancelFlag(cancel)).map_err(raise)
     })??;
     warn_of_problem(py, None)?;

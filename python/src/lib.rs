@@ -9,6 +9,7 @@ mod array;
 mod camera;
 mod camera_state;
 mod clip_run;
+mod commands;
 mod config;
 mod core_surroundings;
 mod decoding;
@@ -17,14 +18,10 @@ mod error;
 mod footage;
 mod frame;
 mod inference;
-mod options;
+mod inputs;
 mod outcome;
-mod pixel_events;
-mod registers;
-mod study;
 mod table;
 mod timed_camera;
-mod tools;
 mod work;
 
 use pyo3::prelude::*;
@@ -37,37 +34,20 @@ mod _foveate {
     use pyo3::prelude::*;
 
     #[pymodule_export]
-    use super::array::{decisions_png, grey_png};
-    #[pymodule_export]
-    use super::timed_camera::clocks;
-    #[pymodule_export]
-    use crate::camera::Camera;
-    #[pymodule_export]
-    use crate::clip_run::run_clip;
-    #[pymodule_export]
-    use crate::decoding::{DecodedFrame, Decoding, decode};
-    #[pymodule_export]
-    use crate::design::{Design, presets};
-    #[pymodule_export]
-    use crate::error::ToolError;
-    #[pymodule_export]
-    use crate::footage::{Run, luma, simulate};
-    #[pymodule_export]
-    use crate::inference::infer;
-    #[pymodule_export]
-    use crate::options::refuse_option;
-    #[pymodule_export]
-    use crate::outcome::Outcome;
-    #[pymodule_export]
-    use crate::pixel_events::pixel_event_records;
-    #[pymodule_export]
-    use crate::study::{explain, fidelity};
-    #[pymodule_export]
-    use crate::table::event_columns;
-    #[pymodule_export]
-    use crate::timed_camera::TimedCamera;
-    #[pymodule_export]
-    use crate::tools::{estimate, generate};
+    use crate::{
+        array::{decisions_png, grey_png},
+        camera::Camera,
+        clip_run::run_clip,
+        commands::{estimate, explain, fidelity, generate, pixel_event_records},
+        decoding::{DecodedFrame, Decoding, decode},
+        design::{Design, presets},
+        error::ToolError,
+        footage::{Run, luma, simulate},
+        inference::infer,
+        outcome::Outcome,
+        table::event_columns,
+        timed_camera::{TimedCamera, clocks},
+    };
 
     /// Run the command `foveate` with these words, the first of which is its name. Return its exit code.
     #[pyfunction]

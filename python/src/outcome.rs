@@ -3,12 +3,12 @@
 //! frame and its results as numbers, and everything that follows from them alone. Maps of
 //! classes from Python: arrays of codes.
 
-use super::array::{RegionArrays, RegionResults, Screen};
+use crate::array::RegionArrays;
 use crate::camera::Camera;
+use crate::commands::json;
 use crate::design::Design;
 use crate::error::raise;
-use crate::frame::Grey;
-use crate::study::json;
+use crate::frame::{Grey, size_of};
 use foveate_camera::RegionClass;
 use foveate_engine::FrameOutcome;
 use foveate_simulator::{
@@ -17,11 +17,11 @@ use foveate_simulator::{
     packet_layout, wrapped_number, write_kept_packets,
 };
 use numpy::ndarray::{Array2, Array3};
-use numpy::{IntoPyArray, PyArray2, PyArray3, PyUntypedArray};
+use numpy::{IntoPyArray, PyArray2, PyArray3};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
-use pyo3::types::{PyBytes, PyDict};
+use pyo3::types::PyBytes;
 use std::sync::Arc;
 
 /// The outcome of one frame: decisions, scores and the screen. Its arrays own their memory.
@@ -61,10 +61,10 @@ use std::sync::Arc;
 pub(crate) struct Outcome {
     record: FrameRecord,
     /// The frame itself, if it was read from footage.
-    frame: Option<Screen>,
+    frame: Option<Py<PyAny>>,
     /// The camera whose screen shows the rendered frame, and the number of its step.
     camera: Option<(Py<Camera>, u64)>,
-    rendered: PyOnceLock<Screen>,
+    rendered: PyOnceLock<Py<PyAny>>,
     /// The values that the regions send, of which packets are made.
     values: PyOnceLock<SentValues>,
     arrays: RegionArrays,
@@ -72,15 +72,17 @@ pub(crate) struct Outcome {
 
 /// The parts of an outcome that the next frame of its camera overwrites.
 pub(crate) struct KeptParts {
-    pub(crate) screen: Screen,
+    pub(crate) screen: Py<PyAny>,
     pub(crate) values: SentValues,
 }
 
 impl Outcome {
-    fn new(
+    /// Makes the outcome of a camera's step, which reads the rendered frame later unless it is kept, or
+    /// that of a run, with the frame.
+    pub(crate) fn new(
         py: Python<'_>,
         record: FrameRecord,
-        frame: Option<Screen>,
+        frame: Option<Py<PyAny>>,
         camera: Option<(Py<Camera>, u64)>,
         kept: Option<KeptParts>,
     ) -> Self {
@@ -89,28 +91,11 @@ impl Outcome {
             rendered.get_or_init(py, || kept.screen);
             values.get_or_init(py, || kept.values);
         }
-        Self { record, frame, camera, rendered, values, arrays: RegionArrays::new() }
+        Self { record, frame, camera, rendered, values, arrays: RegionArrays::new(py) }
     }
 
-    /// Makes the outcome of a camera's step, which reads the rendered frame later unless it is kept.
-    pub(crate) fn of_camera(
-        py: Python<'_>,
-        record: FrameRecord,
-        camera: Py<Camera>,
-        step: u64,
-        kept: Option<KeptParts>,
-    ) -> Self {
-        Self::new(py, record, None, Some((camera, step)), kept)
-    }
-
-    /// Makes the outcome of a run, with frame and rendered frame.
-    pub(crate) fn of_run(
-        py: Python<'_>,
-        record: FrameRecord,
-        frame: Screen,
-        kept: KeptParts,
-    ) -> Self {
-        Self::new(py, record, Some(frame), None, Some(kept))
+    fn array<'py>(&self, py: Python<'py>, name: &str) -> PyResult<Bound<'py, PyAny>> {
+        self.arrays.get(py, name, &self.record.design, &self.record.result)
     }
 
     pub(crate) fn record(&self) -> &FrameRecord {
@@ -152,62 +137,62 @@ impl Outcome {
 
     /// Spatial relevance: array of bool, shape (rows, columns).
     #[getter]
-    fn srs(&self, py: Python<'_>) -> Py<PyArray2<bool>> {
-        self.arrays.srs(py, self.record.results())
+    fn srs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.array(py, "srs")
     }
 
     /// Temporal relevance: array of bool, shape (rows, columns).
     #[getter]
-    fn trs(&self, py: Python<'_>) -> Py<PyArray2<bool>> {
-        self.arrays.trs(py, self.record.results())
+    fn trs<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.array(py, "trs")
     }
 
     /// Regions that are relevant in space and in time, whose pixels are sent: array of bool, shape (rows, columns).
     #[getter]
-    fn active(&self, py: Python<'_>) -> Py<PyArray2<bool>> {
-        self.arrays.active(py, self.record.results())
+    fn active<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.array(py, "active")
     }
 
     /// The action of each region on the screen, an index into `foveate.ACTIONS`: array of uint8, shape (rows, columns).
     #[getter]
-    fn action(&self, py: Python<'_>) -> Py<PyArray2<u8>> {
-        self.arrays.action(py, self.record.results())
+    fn action<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.array(py, "action")
     }
 
     /// Number of changed pixels of a region, all of its pixels without a valid reference: array of int64, shape (rows, columns).
     #[getter]
-    fn changed(&self, py: Python<'_>) -> Py<PyArray2<i64>> {
-        self.arrays.changed(py, self.record.results())
+    fn changed<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.array(py, "changed")
     }
 
     /// Scores by feature, in the units of the contract: dict of str to array of int64, shape (rows, columns).
     #[getter]
-    fn scores(&self, py: Python<'_>) -> PyResult<Py<PyDict>> {
-        self.arrays.scores(py, self.record.results())
+    fn scores<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.array(py, "scores")
     }
 
     /// Movement of the content of each region since its reference, [dx, dy] in pixels to the right and down: array of int8,
     /// shape (rows, columns, 2); None for a design without the feature `flow`.
     #[getter]
-    fn displacements(&self, py: Python<'_>) -> Option<Py<PyArray3<i8>>> {
-        self.arrays.displacements(py, self.record.results())
+    fn displacements<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        self.array(py, "displacements")
     }
 
     /// The frame as the camera saw it: array of uint8 or uint16, shape (height, width); None for a frame that was given as an
     /// array, because the caller has it.
     #[getter]
-    fn frame(&self, py: Python<'_>) -> Option<Py<PyUntypedArray>> {
-        self.frame.as_ref().map(|frame| frame.0.clone_ref(py))
+    fn frame(&self) -> Option<&Py<PyAny>> {
+        self.frame.as_ref()
     }
 
     /// The frame on the receiver's screen: array of uint8 or uint16, shape (height, width). Read it before the next step, unless it was kept.
     #[getter]
-    fn rendered(&self, py: Python<'_>) -> PyResult<Py<PyUntypedArray>> {
+    fn rendered(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         let read = || {
             let (camera, step) = self.camera.as_ref().expect("what no camera has is kept");
             camera.get().screen(py, *step)
         };
-        Ok(self.rendered.get_or_try_init(py, read)?.0.clone_ref(py))
+        Ok(self.rendered.get_or_try_init(py, read)?.clone_ref(py))
     }
 
     /// Number of pixels that the active regions forward, without padding beyond the frame.
@@ -283,7 +268,7 @@ impl Outcome {
         frame: Option<&Bound<'py, PyAny>>,
         outlines: bool,
     ) -> PyResult<Bound<'py, PyArray3<u8>>> {
-        let own = self.frame.as_ref().map(|own| own.0.bind(py).as_any());
+        let own = self.frame.as_ref().map(|own| own.bind(py));
         let Some(frame) = frame.or(own) else {
             return Err(PyTypeError::new_err(
                 "this outcome has no frame, because Camera.step does not keep the frame that it takes; give that frame, \
@@ -292,7 +277,7 @@ impl Outcome {
         };
         let design = &self.record.design;
         let grey = Grey::of(frame, design.pixel_bits())?;
-        let size = (design.width() as usize, design.height() as usize);
+        let size = size_of(design);
         if grey.size() != size {
             let ((width, height), (own_width, own_height)) = (grey.size(), size);
             return Err(PyValueError::new_err(format!(
@@ -411,10 +396,6 @@ pub(crate) struct RegionClasses {
 }
 
 impl FrameRecord {
-    pub(crate) fn results(&self) -> RegionResults<'_> {
-        RegionResults { design: &self.design, result: &self.result }
-    }
-
     /// Returns true if the frame used the map of classes of the configuration, or if there are no classes.
     pub(crate) fn has_own_map(&self) -> bool {
         self.maps_set() == 0

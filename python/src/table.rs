@@ -9,8 +9,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-use super::outcome::FrameRecord;
-use crate::outcome::Outcome;
+use crate::outcome::{FrameRecord, Outcome};
 
 /// The values of a column.
 enum Values {

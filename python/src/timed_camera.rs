@@ -3,25 +3,21 @@
 //! loses regions. Times of frames that are given one by one. They never decrease. The table of
 //! clocks, as `clocks.npy` has it. The clocks of a whole clip.
 
-use super::clip_run::{ClipInputs, problem_text, warn_of_problem};
 use crate::camera_state::lock_camera;
 use crate::config;
-use crate::core_surroundings::{ClockFrequency, CoreSurroundings, SinkRate, SinkStalls};
+use crate::core_surroundings::{CoreSurroundings, clock_frequency, sink_of_rate, sink_of_stalls};
 use crate::design::{Design, in_words};
 use crate::error::raise;
-use crate::frame::{Grey, packed};
-use crate::options::input_options;
-use crate::work::{CancelFlag, interruptible};
+use crate::frame::{Grey, Scratch, check_size, design_of_size, size_of};
+use crate::inputs::ClipRequest;
 use foveate_design::DesignConfig;
-use foveate_media::{FrameRate, InputOptions, RunMonitor};
-use foveate_pixels::FramePixels;
-use foveate_timed::{ClockRow, TimedClip, TimedError};
+use foveate_media::FrameRate;
+use foveate_timed::{ClockRow, SinkPattern, TimedClip};
 use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
-use std::sync::atomic::AtomicBool;
-use std::sync::{Arc, Mutex, MutexGuard};
+use std::sync::{Mutex, MutexGuard};
 
 /// A camera that takes frames one by one, and returns the clocks at which its hardware decides, sends and loses regions.
 ///
@@ -88,8 +84,7 @@ struct TimedState {
     frames: u64,
     /// Times of the frames.
     clock: StepClock,
-    bytes: Vec<u8>,
-    words: Vec<u16>,
+    scratch: Scratch,
 }
 
 /// A core, and the design that it has.
@@ -108,9 +103,9 @@ impl TimedCamera {
     )]
     fn new(
         config: Option<&Bound<'_, PyAny>>,
-        clock_hz: Option<ClockFrequency>,
-        sink_rate: Option<SinkRate>,
-        sink_stalls: Option<SinkStalls>,
+        #[pyo3(from_py_with = clock_frequency)] clock_hz: Option<u64>,
+        #[pyo3(from_py_with = sink_of_rate)] sink_rate: Option<SinkPattern>,
+        #[pyo3(from_py_with = sink_of_stalls)] sink_stalls: Option<SinkPattern>,
         sections: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         let surroundings = CoreSurroundings::from_options(clock_hz, sink_rate, sink_stalls)?;
@@ -168,11 +163,11 @@ impl TimedCamera {
     fn step<'py>(
         &self,
         frame: &Bound<'py, PyAny>,
-        time_us: Option<MicroSeconds>,
+        #[pyo3(from_py_with = microseconds)] time_us: Option<u64>,
     ) -> PyResult<Bound<'py, PyAny>> {
         let py = frame.py();
         let grey = Grey::of(frame, self.config.camera.frame.pixel_bits)?;
-        if let (Some(MicroSeconds(time_us)), None) = (time_us, self.surroundings.clock_hz) {
+        if let (Some(time_us), None) = (time_us, self.surroundings.clock_hz) {
             return Err(PyTypeError::new_err(format!(
                 "time_us = {time_us}: a core without a clock takes its frames without a pause; give the camera a clock, \
                  clock_hz=100e6"
@@ -181,21 +176,13 @@ impl TimedCamera {
         let mut guard = self.lock_state()?;
         let state = &mut *guard;
         let number = state.frames;
-        let time_us = state.clock.next(number, time_us.map(|MicroSeconds(time)| time))?;
+        let time_us = state.clock.next(number, time_us)?;
         self.fit(state, &grey)?;
-        let TimedState { core, bytes, words, .. } = &mut *state;
+        let TimedState { core, scratch, .. } = &mut *state;
         let clip = &mut core.as_mut().expect("it fits the frame").clip;
-        let rows = match &grey {
-            Grey::Bytes(array) => {
-                let view = array.as_array();
-                py.detach(|| rows_of_step(clip, FramePixels::Bytes(packed(&view, bytes)), time_us))
-            }
-            Grey::Words(array) => {
-                let view = array.as_array();
-                py.detach(|| rows_of_step(clip, FramePixels::Words(packed(&view, words)), time_us))
-            }
-        };
-        let rows = rows.map_err(raise)?;
+        let pixels = grey.packed(scratch);
+        let mut rows = ClockTable::default();
+        py.detach(|| clip.step(pixels, time_us, &mut |row| rows.push(row))).map_err(raise)?;
         state.clock.take(number, time_us);
         state.frames += 1;
         drop(guard);
@@ -243,46 +230,30 @@ impl TimedCamera {
     /// Makes the core for a first frame, or refuses a frame of another size or depth.
     fn fit(&self, state: &mut TimedState, frame: &Grey<'_>) -> PyResult<()> {
         if let (Some(SizedCore { design, .. }), 1..) = (&state.core, state.frames) {
-            frame.check_size((design.width() as usize, design.height() as usize))?;
+            check_size(frame.size(), size_of(design))?;
         } else {
-            let design = frame.design(&self.config)?;
-            let CoreSurroundings { clock_hz, sink } = &self.surroundings;
-            let clip = TimedClip::new(&design, *clock_hz, sink);
+            let design = design_of_size(&self.config, frame.size())?;
+            let clip = self.surroundings.clip(&design);
             state.core = Some(SizedCore { design, clip });
         }
         frame.check(self.config.camera.frame.pixel_bits)
     }
 }
 
-/// Shows a frame to a core. Returns the rows that are then certain.
-fn rows_of_step(
-    clip: &mut TimedClip,
-    pixels: FramePixels<'_>,
-    time_us: u64,
-) -> Result<ClockTable, TimedError> {
-    let mut rows = ClockTable::default();
-    clip.step(pixels, time_us, &mut |row| rows.push(row))?;
-    Ok(rows)
-}
-
-/// A time as Python passes it.
-#[derive(Clone, Copy)]
-pub(crate) struct MicroSeconds(pub(crate) u64);
-
-impl<'py> FromPyObject<'_, 'py> for MicroSeconds {
-    type Error = PyErr;
-
-    fn extract(value: Borrowed<'_, 'py, PyAny>) -> PyResult<Self> {
-        let wrong = format!(
-            "time_us = {}: expected a whole number of microseconds, 0 to {}",
-            value.repr()?,
-            u64::MAX
-        );
-        match value.extract() {
-            Ok(time) => Ok(Self(time)),
-            Err(_) if value.hasattr("__index__")? => Err(PyOverflowError::new_err(wrong)),
-            Err(_) => Err(PyTypeError::new_err(wrong)),
-        }
+/// Returns a time as Python passes it.
+pub(crate) fn microseconds(value: &Bound<'_, PyAny>) -> PyResult<Option<u64>> {
+    if value.is_none() {
+        return Ok(None);
+    }
+    let wrong = format!(
+        "time_us = {}: expected a whole number of microseconds, 0 to {}",
+        value.repr()?,
+        u64::MAX
+    );
+    match value.extract() {
+        Ok(time) => Ok(Some(time)),
+        Err(_) if value.hasattr("__index__")? => Err(PyOverflowError::new_err(wrong)),
+        Err(_) => Err(PyTypeError::new_err(wrong)),
     }
 }
 
@@ -396,43 +367,22 @@ pub(crate) fn clocks<'py>(
     py: Python<'py>,
     inputs: &Bound<'_, PyAny>,
     camera: Option<&Bound<'_, PyAny>>,
-    clock_hz: Option<ClockFrequency>,
-    sink_rate: Option<SinkRate>,
-    sink_stalls: Option<SinkStalls>,
+    #[pyo3(from_py_with = clock_frequency)] clock_hz: Option<u64>,
+    #[pyo3(from_py_with = sink_of_rate)] sink_rate: Option<SinkPattern>,
+    #[pyo3(from_py_with = sink_of_stalls)] sink_stalls: Option<SinkPattern>,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let surroundings = CoreSurroundings::from_options(clock_hz, sink_rate, sink_stalls)?;
-    let options = input_options("clocks", &CoreSurroundings::OPTIONS, options)?;
-    let config = config::read(camera, None)?;
-    let inputs = ClipInputs::of("clocks", inputs, config.camera.frame.pixel_bits)?;
-    inputs.warn_of_skipped(py, &options)?;
-    let (rows, problem) = interruptible(py, |cancel| {
-        rows_of_clip(inputs, &config, &surroundings, &options, cancel)
-    })??;
-    warn_of_problem(py, problem)?;
+    let own = ("clocks", &CoreSurroundings::OPTIONS[..]);
+    let request = ClipRequest::new(own, inputs, camera, options)?;
+    let (clip, mut rows) = request.show_to(
+        py,
+        |design| Ok((surroundings.clip(design), ClockTable::default())),
+        |(clip, rows), frame| {
+            let pixels = frame.frame.borrowed_pixels();
+            clip.step(pixels, frame.time_us, &mut |row| rows.push(row)).map_err(raise).map(drop)
+        },
+    )?;
+    py.detach(|| clip.finish(&mut |row| rows.push(row)).for_each(drop));
     rows.into_python(py)
-}
-
-/// Shows a clip to a core. Returns all rows, and the error that ended the footage before its end.
-fn rows_of_clip(
-    inputs: ClipInputs,
-    config: &DesignConfig,
-    surroundings: &CoreSurroundings,
-    options: &InputOptions,
-    cancel: Arc<AtomicBool>,
-) -> PyResult<(ClockTable, Option<String>)> {
-    let mut player = inputs.open_clip("clocks", &config.camera, options)?;
-    let (width, height) = player.size();
-    let design = config.validate_for_frames(width, height).map_err(raise)?;
-    let mut clip = TimedClip::new(&design, surroundings.clock_hz, &surroundings.sink);
-    let mut rows = ClockTable::default();
-    let hooks = CancelFlag(cancel);
-    let monitor = RunMonitor::of_frames(&hooks, player.frames());
-    for frame in monitor.watch(&mut player) {
-        let frame = frame.map_err(raise)?;
-        let pixels = frame.frame.borrowed_pixels();
-        clip.step(pixels, frame.time_us, &mut |row| rows.push(row)).map_err(raise)?;
-    }
-    clip.finish(&mut |row| rows.push(row)).for_each(drop);
-    Ok((rows, problem_text(&player)))
 }

@@ -2,6 +2,7 @@
 """Fixtures of the tests: the command line of this machine, whose results those of the package must equal."""
 from __future__ import annotations
 
+import ast
 import os
 import subprocess
 import sys
@@ -11,6 +12,27 @@ import numpy as np
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
+
+
+class NamedOptions(ast.NodeTransformer):
+    """Writes the options that a function takes as a group, `**options: Unpack[GROUP]`, one by one, as signatures have them."""
+
+    def __init__(self):
+        groups = ast.parse((ROOT / "python/foveate/_options.py").read_text()).body
+        self.groups = {group.name: group.body[1:] for group in groups if isinstance(group, ast.ClassDef)}
+
+    def visit_arguments(self, own):
+        if own.kwarg and ast.unparse(own.kwarg.annotation).startswith("Unpack["):
+            options = self.groups[own.kwarg.annotation.slice.id]
+            own.kwonlyargs += [ast.arg(option.target.id, option.annotation) for option in options]
+            own.kw_defaults += [ast.Constant(None)] * len(options)
+            own.kwarg = None
+        return own
+
+
+def stub_of_the_compiled_part():
+    """Returns the syntax tree of the stub, with every option of a group."""
+    return NamedOptions().visit(ast.parse((ROOT / "python/foveate/_foveate.pyi").read_text()))
 
 
 @pytest.fixture(scope="session")

@@ -7,7 +7,7 @@ import re
 import pytest
 
 import foveate as fv
-from conftest import ROOT
+from conftest import ROOT, stub_of_the_compiled_part
 from foveate import _foveate
 
 #: The parameters of this method are the registers of a core, whose names depend on the design.
@@ -70,9 +70,8 @@ def test_a_docstring_has_the_parameters_of_the_signature(name):
 
 def stub():
     """Returns the parameters with defaults of the functions, methods and classes of the compiled part in the stub."""
-    tree = ast.parse((ROOT / "python/foveate/_foveate.pyi").read_text())
     found = {}
-    for node in tree.body:
+    for node in stub_of_the_compiled_part().body:
         for one in node.body if isinstance(node, ast.ClassDef) else [node]:
             if not isinstance(one, ast.FunctionDef) or any("property" in ast.unparse(mark) for mark in one.decorator_list):
                 continue

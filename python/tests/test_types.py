@@ -1,13 +1,15 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """The types are right, the stubs agree with the compiled part, and everything public is documented."""
+import ast
 import inspect
+import shutil
 import subprocess
 import sys
 
 import pytest
 
 import foveate as fv
-from conftest import ROOT
+from conftest import ROOT, stub_of_the_compiled_part
 
 USE = """
 import numpy as np
@@ -80,9 +82,15 @@ def test_the_package_is_typed(mypy):
     assert checked.returncode == 0, checked.stdout
 
 
-def test_the_stubs_are_those_of_the_compiled_part(tmp_path):
+def test_the_stubs_are_those_of_the_compiled_part(tmp_path, monkeypatch):
+    # The stub that is compared has every option of a group, as signatures have them.
+    typed = shutil.copytree(ROOT / "python/foveate", tmp_path / "typed/foveate")
+    imports = "from typing import Literal, Sequence\nfrom foveate._options import Number, Section\n"
+    (typed / "_foveate.pyi").write_text(imports + ast.unparse(stub_of_the_compiled_part()))
+    monkeypatch.setenv("MYPYPATH", str(tmp_path / "typed"))
     # `main` and similar functions are not for users. Methods that PyO3 adds to classes are not in stubs.
-    checked = run("mypy.stubtest", "foveate._foveate", "--ignore-missing-stub", cwd=tmp_path)
+    config = ["--mypy-config-file", str(ROOT / "pyproject.toml")]
+    checked = run("mypy.stubtest", "foveate._foveate", "--ignore-missing-stub", *config, cwd=tmp_path)
     assert checked.returncode == 0, checked.stdout
 
 
