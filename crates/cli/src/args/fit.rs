@@ -21,7 +21,7 @@ use crate::error::CliError;
 /// over whole frames, and candidates are compared with it. The first half of every clip is used to
 /// choose a design, and the second half to report on it. The search covers region size, features,
 /// thresholds, pixel bits, windows, denoising, reference, organization, feed and fold. The exit
-/// code is 1 if no design meets the limits, if the second half does not confirm the choice, or if a
+/// code is 1 if no design meets the limits, if the choice misses them on the second half, or if a
 /// clip was not read to its end; the nearest design is still written.
 #[derive(Args, Debug)]
 #[command(

@@ -131,7 +131,7 @@ impl Cache {
         let dir =
             builder.tempdir_in(&root).map_err(ToolError::cache("create a folder in", &root))?;
         build(dir.path()).map_err(|error| self.keep_log(key, error))?;
-        let bytes = size_limit::folder_bytes(dir.path());
+        let bytes = size_limit::bytes_of(dir.path());
         publish(dir, &place, artifact)?;
         self.limit.make_room(&root, &self.built_bytes, bytes);
         Ok(path)

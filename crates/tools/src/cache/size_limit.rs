@@ -81,14 +81,13 @@ pub(super) fn mark_as_used(place: &Path) {
     }
 }
 
-/// Returns the number of bytes of all files below a folder.
-pub(super) fn folder_bytes(folder: &Path) -> u64 {
-    let size = |entry: DirEntry| match entry.metadata() {
-        Ok(about) if about.is_dir() => folder_bytes(&entry.path()),
+/// Returns the number of bytes of a file, or of all files below a folder. Links are not followed.
+pub(super) fn bytes_of(path: &Path) -> u64 {
+    match path.symlink_metadata() {
+        Ok(about) if about.is_dir() => entries(path).map(|entry| bytes_of(&entry.path())).sum(),
         Ok(about) => about.len(),
         Err(_) => 0,
-    };
-    entries(folder).map(size).sum()
+    }
 }
 
 /// Removes the remains of killed builds. Then removes entries and logs that are not in use, the
@@ -112,12 +111,7 @@ fn remove_unused(root: &Path, limit: u64, goal: u64) {
     let mut kept = named(root, &CacheKey::is_key_name);
     kept.extend(named(&root.join(LOG_FOLDER), &is_log));
     kept.sort_by_key(|&(_, age)| std::cmp::Reverse(age));
-    let size = |path: &Path| match path.metadata() {
-        Ok(about) if about.is_dir() => folder_bytes(path),
-        Ok(about) => about.len(),
-        Err(_) => 0,
-    };
-    let sizes: Vec<u64> = kept.iter().map(|(path, _)| size(path)).collect();
+    let sizes: Vec<u64> = kept.iter().map(|(path, _)| bytes_of(path)).collect();
     let mut bytes: u64 = sizes.iter().sum();
     if bytes <= limit {
         return;

@@ -259,7 +259,7 @@ fn two_processes_build_and_remove_the_same_entries() {
     assert!(second.wait().unwrap().success());
     let last = limited_cache(folder.path(), WORKER_LIMIT);
     last.get_or_build(&key("last"), "file", build_of_size(1)).unwrap();
-    assert!(size_limit::folder_bytes(folder.path()) <= WORKER_LIMIT);
+    assert!(size_limit::bytes_of(folder.path()) <= WORKER_LIMIT);
     assert!(entries(&last).iter().all(|name| !name.contains("ing-")), "{:?}", entries(&last));
 }
 
