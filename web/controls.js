@@ -36,11 +36,6 @@ const HELP = new Map(Object.entries({
   mean_fraction_bits: "binary places of the mean of a region",
   radius: "the largest movement that is searched for, in pixels",
 }));
-const FEATURE_HELP = new Map(Object.entries({
-  edge: "pixels with a strong gradient", corner: "pixels that are corners", mad: "mean distance from the mean", variance: "mean squared distance from the mean",
-  range: "brightest minus darkest pixel", surface: "how little the region resembles itself, displaced", segment: "two parts of different brightness",
-  flow: "the content has moved",
-}));
 const OF_FEATURE = [["level", "Level"], ["min_score", "Least score"], ["mean_fraction_bits", "Mean bits"], ["radius", "Radius"]];
 
 export class Controls {
@@ -141,7 +136,7 @@ export class Controls {
     const element = make("div", { className: "feature" }, make("label", {}, box, name));
     element.dataset.key = `feature.${name}`;
     const row = refusable(element);
-    addHelp(row, FEATURE_HELP.get(name));
+    addHelp(row, this.#tables.features.find(own => own.feature === name).summary);
     box.onchange = () => {
       const message = this.#actions.toggle(name, box.checked);
       if (message) box.checked = !box.checked;

@@ -35,7 +35,7 @@ use std::sync::Arc;
 /// changed : array of int64, shape (rows, columns)
 ///     Number of changed pixels of a region; all of its pixels without a valid reference.
 /// scores : dict of str to array of int64, shape (rows, columns)
-///     Scores by feature, in the units of the contract: pixels for `edge`, `corner` and `segment`, grey levels for `range`. In a region of n pixels `surface` and `flow` are n times grey levels, `mad` is n * 2^f times grey levels with f `mean_fraction_bits`, and `variance` is n * n times squared grey levels.
+///     Scores by feature as the contract defines them, before they are divided by the number of pixels.
 /// displacements : array of int8, shape (rows, columns, 2), or None
 ///     Movement of the content of each region since its reference, [dx, dy]: pixels to the right and down. None for a design
 ///     without the feature `flow`.

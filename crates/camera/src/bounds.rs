@@ -96,14 +96,19 @@ mod tests {
     /// Validation accepts both ends of every bound and refuses the next value beyond the upper end.
     #[test]
     fn bounds_are_what_is_taken() {
-        const ALL: &str = "spatial=[{feature=\"edge\"},{feature=\"corner\"},{feature=\"mad\",mean_fraction_bits=1},{feature=\"variance\"},{feature=\"range\"},{feature=\"surface\"},{feature=\"segment\",mean_fraction_bits=1},{feature=\"flow\"}]";
+        let entry = |kind: &crate::FeatureKind| {
+            let mean = if kind.has_second_pass() { ",mean_fraction_bits=1" } else { "" };
+            format!("{{feature=\"{kind}\"{mean}}}")
+        };
+        let entries: Vec<_> = crate::FeatureKind::ALL.iter().map(entry).collect();
+        let all = format!("spatial=[{}]", entries.join(","));
         const SEGMENT: &str = "spatial=[{feature=\"segment\",min_score=3}]";
         let mut keys = 0;
         for overrides in [
             vec![],
-            vec![ALL, "render.irrelevant=\"mean\""],
-            vec![ALL, "region.size=6", "render.irrelevant=\"mean\"", "frame.pixel_bits=3"],
-            vec![ALL, "region.size=5", "frame.pixel_bits=12", "temporal.min_count=0"],
+            vec![&all, "render.irrelevant=\"mean\""],
+            vec![&all, "region.size=6", "render.irrelevant=\"mean\"", "frame.pixel_bits=3"],
+            vec![&all, "region.size=5", "frame.pixel_bits=12", "temporal.min_count=0"],
             vec!["spatial=[{feature=\"corner\",min_score=0}]", "frame.pixel_bits=1"],
             vec!["zones={}", "render.irrelevant=\"mean\"", "frame.pixel_bits=3"],
             vec![SEGMENT, "region.size=3"],

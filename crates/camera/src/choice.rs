@@ -68,31 +68,18 @@ choice! {
         Binomial3x3 = "binomial3x3",
     }
 }
-choice! {
-    /// A kind of spatial feature.
-    #[derive(Default)]
-    FeatureKind {
-        /// 3x3 Sobel: pixels with |Gx| + |Gy| > level.
-        #[default]
-        Edge = "edge",
-        /// FAST 5/8: pixels with 5 contiguous neighbors all brighter or all darker by > level.
-        Corner = "corner",
-        /// Mean absolute deviation from the region's mean.
-        Mad = "mad",
-        /// Variance of the region.
-        Variance = "variance",
-        /// The largest minus the smallest pixel of the region.
-        Range = "range",
-        /// The smallest of four sums: the differences of the region from a copy of itself that is
-        /// moved by one pixel in one of four directions.
-        Surface = "surface",
-        /// The smaller of two counts: of the pixels that are above the mean by more than a level,
-        /// and of those that are below it by more than the level.
-        Segment = "segment",
-        /// The gain of the best displacement of the region from its reference.
-        Flow = "flow",
+
+impl DenoiseFilter {
+    /// Returns true if the filter uses the 3x3 window of raw pixels around each pixel.
+    #[must_use]
+    pub fn has_window(self) -> bool {
+        match self {
+            Self::None => false,
+            Self::Median3x3 | Self::Switching3x3 | Self::Binomial3x3 => true,
+        }
     }
 }
+
 choice! {
     /// The rule by which the votes of several features become SRS.
     #[derive(Default)]

@@ -143,17 +143,16 @@ pub struct DenoiseConfig {
 pub struct SpatialConfig {
     /// The kind of the feature.
     pub feature: FeatureKind,
-    /// Per-pixel threshold of `edge` (default 100), `corner` (default 20) and `segment`
-    /// (default 8), in grey levels. The defaults are those of 8 bits, and are scaled to the depth.
-    /// Valid are 0..=6*(2^P-1)-1 for `edge`, 0..=2^P-2 for `corner`, and for `segment`
-    /// 0..=2^(P-1)-1 with fraction bits of the mean and 0..=2^(P-1)-2 without. With a `min_score`
-    /// of 0 a level may be up to 6*(2^P-1) for `edge`, and up to 2^P-1 for the other two.
+    /// Per-pixel threshold of a feature that counts pixels, in grey levels: from 0 to one below
+    /// the largest value that a pixel can have; for a feature with a mean, to the largest level
+    /// with which some region has a score; with a `min_score` of 0, to the largest value itself.
+    /// The default is that of 8 bits ([`LevelSpec::default`](crate::LevelSpec)), and is scaled to
+    /// the depth.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub level: Option<u32>,
-    /// Per-region threshold: pixels for `edge`, `corner` (default 5) and `segment` (default 8),
-    /// grey levels for `mad`, `surface` (default 5), `range` (default 20) and `flow` (default 2),
-    /// squared grey levels for `variance` (default 50). In grey levels and their squares it may be
-    /// decimal; its default is that of 8 bits, and is scaled to the depth.
+    /// Per-region threshold, in the unit of the feature. In grey levels and their squares it may
+    /// be decimal. The default is that of 8 bits ([`FeatureSpec::min_score`](crate::FeatureSpec)),
+    /// and is scaled to the depth.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub min_score: Option<Decimal>,
     /// Fraction bits of the mean of `mad` and `segment`, 0..=ceil(log2 n). The default is 0. A
@@ -176,23 +175,25 @@ impl SpatialConfig {
     /// Returns true if `mean_fraction_bits` applies to the feature.
     #[must_use]
     pub fn has_mean_fraction(&self) -> bool {
-        self.feature.defaults().mean_fraction_bits.is_some()
+        self.feature.has_second_pass()
     }
 
     /// Returns the entry with every key that applies to its feature filled in, for pixels of `bits`
     /// bits.
     #[must_use]
     pub fn with_defaults(&self, bits: u32) -> Self {
-        let defaults = self.feature.defaults();
-        let level = defaults.level.map(|value| depth::scale_level(value, DEFAULT_BITS, bits));
-        let min_score = Decimal::from_whole(defaults.min_score);
+        let spec = self.feature.spec();
+        let level = spec.level.as_ref();
+        let level = level.map(|level| depth::scale_level(level.default, DEFAULT_BITS, bits));
+        let min_score = Decimal::from_whole(spec.min_score);
         let min_score = depth::scale_min_score(self.feature, min_score, DEFAULT_BITS, bits);
+        let mean_fraction_bits = self.has_mean_fraction().then_some(0);
         Self {
             feature: self.feature,
             level: self.level.or(level),
             min_score: self.min_score.or(Some(min_score)),
-            mean_fraction_bits: self.mean_fraction_bits.or(defaults.mean_fraction_bits),
-            radius: self.radius.or(defaults.radius),
+            mean_fraction_bits: self.mean_fraction_bits.or(mean_fraction_bits),
+            radius: self.radius.or(self.feature.default_radius()),
         }
     }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Spatial features with their thresholds as integers, and the widths of their scores. The
-//! differences between kinds of features are in [`crate::feature_kind`].
+//! differences between kinds of features are in [`crate::feature_spec`].
 
 use std::fmt::Display;
 
 use crate::depth::{self, DEFAULT_BITS};
+use crate::feature_spec::{RegionNumbers, ScoreSource};
 use crate::ranges::{FLOW_RADII, largest_flow_radius};
 use crate::{ConfigError, Decimal, FeatureKind, Reciprocal, SpatialConfig, bits_for};
 
@@ -58,15 +59,23 @@ impl SpatialFeature {
     ) -> Result<Self, ConfigError> {
         let entry = SpatialEntry { config, path, bits };
         let pixel_max = (1 << bits) - 1;
-        let max = u64::from(pixel_max);
         let fraction_bits = entry.fraction_bits(n)?;
+        let numbers = RegionNumbers { n, pixel_max, fraction_bits };
         let (kind, level_max) = (config.feature, config.feature.level_max(pixel_max));
         let always = config.min_score == Some(Decimal::from_whole(0));
         let largest_level =
             if always { level_max } else { kind.largest_deciding_level(pixel_max, fraction_bits) };
-        let (mean, variance) = kind.mean_and_variance(n, max, fraction_bits);
-        let unit = kind.unit(n, fraction_bits);
-        let score_max = kind.score_max(n, max, fraction_bits);
+        let (mean, variance) = match kind.spec().source {
+            ScoreSource::Deviations => {
+                (Some(MeanDivision::new(n, pixel_max.into(), fraction_bits)), None)
+            }
+            ScoreSource::Squares => (None, Some(VarianceWidths::new(n, pixel_max.into()))),
+            ScoreSource::WindowHits
+            | ScoreSource::WindowSums { .. }
+            | ScoreSource::Extremes
+            | ScoreSource::Reference => (None, None),
+        };
+        let (unit, score_max) = ((kind.spec().scale)(&numbers), (kind.spec().score_max)(&numbers));
         Ok(Self {
             kind,
             level: entry.level(level_max, largest_level)?,
@@ -186,7 +195,7 @@ impl SpatialFeature {
 }
 
 impl MeanDivision {
-    pub(crate) fn new(n: u64, pixel_max: u64, fraction_bits: u32) -> Self {
+    fn new(n: u64, pixel_max: u64, fraction_bits: u32) -> Self {
         let dividend_max = ((n * pixel_max) << fraction_bits) + n / 2;
         Self {
             fraction_bits,
@@ -198,7 +207,7 @@ impl MeanDivision {
 }
 
 impl VarianceWidths {
-    pub(crate) fn new(n: u64, pixel_max: u64) -> Self {
+    fn new(n: u64, pixel_max: u64) -> Self {
         Self {
             square_bits: bits_for(pixel_max * pixel_max),
             square_sum_bits: bits_for(n * pixel_max * pixel_max),
@@ -261,7 +270,7 @@ impl SpatialEntry<'_> {
 
     fn fraction_bits(&self, n: u64) -> Result<u32, ConfigError> {
         let (side, max) = (n.isqrt(), crate::width::index_bits(n));
-        let applies = self.config.feature.defaults().mean_fraction_bits.is_some();
+        let applies = self.config.has_mean_fraction();
         match self.config.mean_fraction_bits {
             None => Ok(0),
             Some(bits) if !applies => Err(self.inapplicable_key_error("mean_fraction_bits", bits)),
@@ -277,7 +286,7 @@ impl SpatialEntry<'_> {
 
     /// Checks the radius for regions of `n` pixels.
     fn radius(&self, n: u64) -> Result<Option<u32>, ConfigError> {
-        let applies = self.config.feature.defaults().radius.is_some();
+        let applies = self.config.feature.is_displacement();
         let side = u32::try_from(n.isqrt()).expect("a region has at most 4096 pixels");
         let valid = *FLOW_RADII.start()..=largest_flow_radius(side);
         match self.config.radius {

@@ -20,7 +20,7 @@ mod derived_numbers;
 mod displacement;
 mod error;
 mod feature;
-mod feature_kind;
+mod feature_spec;
 mod keys;
 mod periphery;
 mod ranges;
@@ -38,8 +38,7 @@ mod zones_config;
 pub use bounds::KeyBound;
 pub use camera::{Camera, TemporalParameters};
 pub use choice::{
-    DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood, Payload, ReferencePolicy,
-    VoteCombination,
+    DenoiseFilter, IrrelevantRendering, Neighborhood, Payload, ReferencePolicy, VoteCombination,
 };
 pub use class_thresholds::ClassThresholds;
 pub use config::{
@@ -50,7 +49,7 @@ pub use decimal::Decimal;
 pub use displacement::Displacement;
 pub use error::ConfigError;
 pub use feature::{MeanDivision, SpatialFeature, VarianceWidths};
-pub use feature_kind::ScoreUnit;
+pub use feature_spec::{FeatureKind, FeatureSpec, LevelSpec, ScoreSource, ScoreUnit};
 pub use keys::{AcceptedValues, CAMERA_KEYS, ConfigKey};
 pub use periphery::Periphery;
 pub use ranges::{
@@ -60,7 +59,7 @@ pub use reciprocal::Reciprocal;
 pub use reference::ReferenceWriteTime;
 pub use region_class::{ClassMapError, RegionClass};
 pub use sent_values::RegionAction;
-pub use width::{bits_for, index_bits, mad_score_max};
+pub use width::{bits_for, index_bits};
 pub use zones::Zones;
 pub use zones_config::{
     AreaConfig, KeenConfig, KeenPeripheryConfig, KeenSpatialConfig, KeenTemporalConfig, ZonesConfig,

@@ -12,6 +12,7 @@ mod choice;
 mod class_memory;
 mod config;
 mod design;
+mod feature;
 mod hardware;
 mod hardware_config;
 mod hardware_view;
@@ -34,6 +35,7 @@ pub use choice::{
 pub use class_memory::{CLASS_BITS, CLASS_WORD_BITS, CLASSES_PER_WORD, class_word};
 pub use config::DesignConfig;
 pub use design::Design;
+pub use feature::{FeatureHardware, FlowSearch, PipelinedFeature, RasterFeature, SerialFeature};
 pub use hardware::Hardware;
 pub use hardware_config::{HardwareConfig, OrganizationConfig, RasterConfig, SerialConfig};
 pub use hardware_view::{DesignWithHardware, PipelinedDesign, RasterDesign, SerialDesign};
@@ -44,8 +46,8 @@ pub use port::{OutputQualifier, Port, PortDirection, PortRole};
 pub use preset::{PRESETS, Preset};
 pub use raster::{FRAME_NUMBERS, RasterHardware, RasterMemory, RasterTiming, SecondPassTiming};
 pub use serial::{
-    BlockMeanDivision, FlowSearch, LaneMemory, LaneWidths, MemoryChoice, SerialHardware,
-    SerialPhase, SerialTiming, SlotArea, SlotAreaKind,
+    BlockMeanDivision, LaneMemory, LaneWidths, MemoryChoice, SerialHardware, SerialPhase,
+    SerialTiming, SlotArea, SlotAreaKind,
 };
 pub use thresholds::{DesignThreshold, keen_role};
 pub use timing::{DepartureTiming, DesignTiming};

@@ -6,8 +6,8 @@
 //! until it is entered here.
 
 use crate::{
-    CoreInterface, Design, DesignTiming, Hardware, HardwareConfig, Organization, Port,
-    ThresholdSource,
+    CoreInterface, Design, DesignTiming, FeatureHardware, Hardware, HardwareConfig, Organization,
+    Port, ThresholdSource,
 };
 use Organization::{Pipelined, Raster, Serial};
 use foveate_camera::{
@@ -171,18 +171,8 @@ impl Organization {
     }
 }
 
-/// Returns true if the organization computes the score of the feature.
 fn supports_feature(organization: Organization, kind: FeatureKind) -> bool {
-    use FeatureKind::{Corner, Edge, Flow, Mad, Range, Segment, Surface, Variance};
-    match (organization, kind) {
-        (
-            Pipelined | Serial | Raster,
-            Edge | Corner | Mad | Variance | Range | Surface | Segment,
-        )
-        | (Serial, Flow) => true,
-        // A search in the reference would multiply the size of the RPU or of the core.
-        (Pipelined | Raster, Flow) => false,
-    }
+    FeatureHardware::of_kind(kind).is_in(organization)
 }
 
 fn supports_filter(organization: Organization, filter: DenoiseFilter) -> bool {

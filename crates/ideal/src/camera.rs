@@ -244,9 +244,8 @@ pub struct IdealOutcome {
     pub active: Vec<bool>,
     /// The action that the receiver's screen takes for every region.
     pub actions: Vec<RegionAction>,
-    /// The scores by feature, in the order of the camera, and then by region: numbers of pixels for
-    /// `edge`, `corner` and `segment`, grey levels for `mad`, `range`, `surface` and `flow`,
-    /// squared grey levels for `variance`.
+    /// The scores by feature, in the order of the camera, and then by region, in the unit of the
+    /// feature ([`FeatureSpec::unit`](foveate_camera::FeatureSpec)).
     pub scores: Vec<Vec<f64>>,
     /// The number of changed pixels of every region, 0..=n; n without a valid reference.
     pub changed: Vec<f64>,

@@ -101,6 +101,7 @@ fn described_key((key, values): &ConfigKey, defaults: &Value) -> Value {
 fn feature(kind: FeatureKind) -> Value {
     let mut told = json!(SpatialConfig::new(kind).with_defaults(8));
     told["unit"] = json!(kind.score_unit().name());
+    told["summary"] = json!(kind.spec().summary);
     let supports = |one: &&Organization| one.feature_kinds().contains(&kind);
     let organizations = Organization::ALL.iter().filter(supports).map(|one| one.name());
     told["organizations"] = json!(organizations.collect::<Vec<_>>());

@@ -10,7 +10,7 @@ use std::process::Command;
 
 use crate::common::{array, has_tclsh, verilog};
 use foveate_boards::{Board, BoardError, BoardProject, build, write_project};
-use foveate_design::DesignConfig;
+use foveate_design::{DesignConfig, Organization};
 use foveate_tools::{
     Tool, Toolchain,
     testing::{require_tools, sample},
@@ -60,7 +60,9 @@ fn no_tool_warns_of_a_board() {
         return;
     }
     let small = "frame={width=24,height=16}";
-    let all = "spatial=[{feature='edge',min_score=1},{feature='mad',min_score=1},{feature='corner',min_score=1},{feature='variance',min_score=1},{feature='range',min_score=1},{feature='surface',min_score=1},{feature='segment',min_score=1}]";
+    let kinds = Organization::Pipelined.feature_kinds().into_iter();
+    let entries: Vec<_> = kinds.map(|kind| format!("{{feature='{kind}',min_score=1}}")).collect();
+    let all = &*format!("spatial=[{}]", entries.join(","));
     let means = "render.irrelevant='mean'";
     let arrays: [&[&str]; 5] = [
         &[small],

@@ -6,7 +6,7 @@
 use crate::common;
 use crate::common::serial::serial_config;
 use crate::common::vectors::{clock_records, port_value};
-use crate::common::{feature, in_parallel, in_turn};
+use crate::common::{feature, feature_sets, in_parallel, in_turn};
 use foveate_camera::{
     Decimal, DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood, Payload,
     ReferencePolicy, RegionAction,
@@ -329,12 +329,8 @@ fn hard_cases(width: u32, height: u32, bits: u32) -> Vec<Frame> {
 }
 
 fn configs() -> Vec<DesignConfig> {
-    use FeatureKind::{Corner, Edge, Flow, Mad, Range, Variance};
-    let all = Organization::Pipelined.feature_kinds();
-    let sets: [&[FeatureKind]; 8] =
-        [&[Edge], &[Corner], &[Mad], &[Variance], &[Range], &all, &[Mad, Edge], &[Flow, Edge]];
     let mut configs = Vec::new();
-    for (turn, kinds) in sets.into_iter().enumerate() {
+    for (turn, kinds) in feature_sets(Organization::Serial).into_iter().enumerate() {
         let features: Vec<_> = kinds.iter().map(|&kind| feature(kind, 2)).collect();
         let mut config = serial_config(&features);
         config.camera.region.size = [4, 5][turn % 2];

@@ -3,8 +3,8 @@
 //! reference, with the other keys sampled, and extreme cases outside the matrix.
 
 use crate::common::{
-    check_agreement, config_name, design, directed_stimulus, feature, has_simulators, in_parallel,
-    in_turn,
+    check_agreement, config_name, design, directed_stimulus, feature, feature_sets, has_simulators,
+    in_parallel, in_turn,
 };
 use foveate_camera::{
     CameraConfig, Decimal, DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood, Payload,
@@ -145,18 +145,7 @@ fn summaries_agree() {
 /// Designs with several features, other depths, other sizes or constant thresholds agree.
 #[test]
 fn designs_outside_the_matrix_agree() {
-    use FeatureKind::{Corner, Edge, Mad, Range, Segment, Surface, Variance};
-    let all = Organization::Pipelined.feature_kinds();
-    let sets: [&[FeatureKind]; 8] = [
-        &[Edge, Corner],
-        &[Mad, Edge],
-        &[Variance, Corner, Edge],
-        &all,
-        &[Mad, Variance],
-        &[Range, Edge],
-        &[Segment, Mad],
-        &[Surface, Segment],
-    ];
+    let sets = feature_sets(Organization::Pipelined);
     let mut configs = Vec::new();
     for (turn, kinds) in sets.iter().enumerate() {
         for &combine in VoteCombination::ALL {
@@ -175,10 +164,10 @@ fn designs_outside_the_matrix_agree() {
     for (turn, bits) in [1, 10, 12, 16, 1, 16].into_iter().enumerate() {
         let mut config = DesignConfig::default();
         config.camera.frame.pixel_bits = bits;
-        let kinds = [[Edge, Mad], [Corner, Variance], [Range, Mad], [Surface, Segment]][turn % 4];
-        config.camera.spatial = kinds.map(|kind| feature(kind, 4)).to_vec();
+        let kinds = &sets[turn % sets.len()];
+        config.camera.spatial = kinds.iter().map(|&kind| feature(kind, 4)).collect();
         for spatial in &mut config.camera.spatial {
-            spatial.level = matches!(spatial.feature, Edge | Corner | Segment).then_some(1);
+            spatial.level = spatial.feature.score_unit().is_count().then_some(1);
             spatial.min_score = Some(Decimal::from_whole(0));
         }
         config.camera.temporal.level = Some(u32::from(bits > 1));

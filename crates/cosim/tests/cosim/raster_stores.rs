@@ -6,13 +6,14 @@ use std::collections::VecDeque;
 
 use crate::common::vectors::{clock_records, field_of_role, port_value};
 use crate::common::{
-    check_agreement, config_name, design, directed_stimulus, feature, has_simulators, in_parallel,
-    in_turn,
+    check_agreement, config_name, design, directed_stimulus, feature, feature_sets, has_simulators,
+    in_parallel, in_turn,
 };
 use foveate_camera::{CameraConfig, DenoiseFilter, FeatureKind, Neighborhood, Payload};
 use foveate_cosim::{CosimLevel, Recording, Simulator};
 use foveate_design::{
-    Design, DesignConfig, FrameStoreKind, Pipelining, PortRole, RasterTiming, ThresholdSource,
+    Design, DesignConfig, FrameStoreKind, Organization, Pipelining, PortRole, RasterTiming,
+    ThresholdSource,
 };
 use foveate_tools::testing::{cover, sample};
 
@@ -217,23 +218,11 @@ fn matrix() -> Vec<Design> {
 }
 
 fn designs_with_store(store: FrameStoreKind, forward: bool) -> Vec<Design> {
-    use FeatureKind::{Corner, Edge, Mad, Range, Segment, Surface, Variance};
-    let sets: [&[FeatureKind]; 9] = [
-        &[Edge],
-        &[Mad],
-        &[Edge, Variance],
-        &[Variance],
-        &[Range],
-        &[Surface],
-        &[Segment],
-        &[Mad, Corner, Variance],
-        &[Surface, Segment, Mad],
-    ];
     let mut designs = Vec::new();
-    for kinds in sets {
+    for kinds in feature_sets(Organization::Raster) {
         for pipelining in [Pipelining::Plain, Pipelining::Deep] {
             let turn = designs.len();
-            let mut config = config(kinds);
+            let mut config = config(&kinds);
             config.hardware.make_raster().store = Some(store);
             config.hardware.make_raster().forward = Some(forward);
             config.hardware.pipelining = pipelining;

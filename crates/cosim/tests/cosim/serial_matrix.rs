@@ -4,7 +4,8 @@
 
 use crate::common::serial::{serial_config, serial_config_name};
 use crate::common::{
-    check_agreement, design, directed_stimulus, feature, has_simulators, in_parallel, in_turn,
+    check_agreement, design, directed_stimulus, feature, feature_sets, has_simulators, in_parallel,
+    in_turn,
 };
 use foveate_camera::{
     Decimal, DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood, Payload,
@@ -12,7 +13,7 @@ use foveate_camera::{
 };
 use foveate_cosim::{CosimLevel, Simulator};
 use foveate_design::{
-    Design, DesignConfig, LaneMemoryKind, Pipelining, PixelFeed, ThresholdSource,
+    Design, DesignConfig, LaneMemoryKind, Organization, Pipelining, PixelFeed, ThresholdSource,
 };
 use foveate_tools::testing::{cover, sample};
 
@@ -132,21 +133,7 @@ fn one_lane_agrees_for_every_feature_filter_neighborhood_and_reference() {
 /// put every region into one lane. Features are alone and together.
 #[test]
 fn arrays_agree_for_every_feed_neighborhood_and_fold() {
-    let sets: [&[FeatureKind]; 13] = [
-        &[Edge],
-        &[Corner],
-        &[Edge, Corner],
-        &[Mad, Edge],
-        &[Variance, Corner, Edge],
-        FeatureKind::ALL,
-        &[Mad, Variance],
-        &[Range, Edge],
-        &[Segment, Mad],
-        &[Surface],
-        &[Segment, Surface],
-        &[Flow, Edge],
-        &[Surface, Flow, Segment],
-    ];
+    let sets = feature_sets(Organization::Serial);
     let mut cases = Vec::new();
     for &feed in PixelFeed::ALL {
         for &neighborhood in Neighborhood::ALL {
@@ -160,7 +147,7 @@ fn arrays_agree_for_every_feed_neighborhood_and_fold() {
                 ((1, 1), 1),
             ] {
                 let turn = cases.len();
-                let kinds = sets[turn % sets.len()];
+                let kinds = &sets[turn % sets.len()];
                 let features: Vec<_> = kinds.iter().map(|&kind| feature(kind, 2)).collect();
                 let mut config = with_keys_in_turn(serial_config(&features), turn);
                 config.hardware.make_serial().feed = Some(feed);
@@ -179,15 +166,14 @@ fn arrays_agree_for_every_feed_neighborhood_and_fold() {
 /// Other depths and sizes, block memory and constant thresholds agree.
 #[test]
 fn depths_sizes_memories_and_constants_agree() {
-    let mut cases = Vec::new();
+    let (sets, mut cases) = (feature_sets(Organization::Serial), Vec::new());
     for (turn, bits) in [1, 10, 12, 16, 1, 16, 1, 12, 1, 16, 10].into_iter().enumerate() {
-        let kinds =
-            [[Edge, Mad], [Corner, Variance], [Range, Mad], [Segment, Surface], [Flow, Edge]]
-                [if turn < 6 { turn % 3 } else { 3 + turn / 8 }];
-        let mut config = serial_config(&kinds.map(|kind| feature(kind, 4)));
+        let kinds = &sets[turn % sets.len()];
+        let features: Vec<_> = kinds.iter().map(|&kind| feature(kind, 4)).collect();
+        let mut config = serial_config(&features);
         config.camera.frame.pixel_bits = bits;
         for spatial in &mut config.camera.spatial {
-            spatial.level = matches!(spatial.feature, Edge | Corner | Segment).then_some(1);
+            spatial.level = spatial.feature.score_unit().is_count().then_some(1);
             spatial.min_score = Some(Decimal::from_whole(0));
         }
         config.camera.temporal.level = Some(u32::from(bits > 1));
@@ -205,11 +191,9 @@ fn depths_sizes_memories_and_constants_agree() {
             .into_iter()
             .enumerate()
     {
-        let kinds =
-            [[Edge, Variance], [Mad, Corner], [Range, Edge], [Surface, Segment], [Edge, Flow]]
-                [if turn < 6 { turn % 3 } else { 3 + turn / 8 }];
-        let mut config =
-            with_keys_in_turn(serial_config(&kinds.map(|kind| feature(kind, 3))), turn);
+        let kinds = &sets[(turn + 4) % sets.len()];
+        let features: Vec<_> = kinds.iter().map(|&kind| feature(kind, 3)).collect();
+        let mut config = with_keys_in_turn(serial_config(&features), turn);
         config.camera.region.size = size;
         config.hardware.make_serial().fold = fold;
         config.hardware.make_serial().feed = Some(in_turn(PixelFeed::ALL, turn));
@@ -263,7 +247,7 @@ fn deep_arrays_agree() {
             for &feed in PixelFeed::ALL {
                 for &memory in LaneMemoryKind::ALL {
                     let turn = cases.len();
-                    let kinds = sets[turn % sets.len()];
+                    let kinds = &sets[turn % sets.len()];
                     let features: Vec<_> = kinds.iter().map(|&kind| feature(kind, 2)).collect();
                     let mut config = with_keys_in_turn(serial_config(&features), turn);
                     config.hardware.pipelining = Pipelining::Deep;

@@ -110,22 +110,16 @@ fn raster_keys(size: u32, most: u32, pipelining: &str) -> String {
 /// Returns the keys for one feature, two, or all, in turn, with levels that the depth allows.
 fn feature_keys(organization: Organization, turn: usize, bits: u32, size: u32) -> String {
     let level = [0, 1, 20][(bits as usize).ilog2() as usize / 2];
-    let entry = |kind: &FeatureKind| match kind {
-        FeatureKind::Edge | FeatureKind::Corner => {
-            format!("[[spatial]]\nfeature = '{kind}'\nlevel = {level}\nmin_score = 1\n")
-        }
-        FeatureKind::Mad => format!(
-            "[[spatial]]\nfeature = 'mad'\nmin_score = 0.1\nmean_fraction_bits = {}\n",
-            size.ilog2()
-        ),
-        FeatureKind::Variance => "[[spatial]]\nfeature = 'variance'\nmin_score = 0.1\n".to_owned(),
-        FeatureKind::Range => "[[spatial]]\nfeature = 'range'\nmin_score = 1\n".to_owned(),
-        FeatureKind::Surface => "[[spatial]]\nfeature = 'surface'\nmin_score = 0.1\n".to_owned(),
-        FeatureKind::Segment => format!(
-            "[[spatial]]\nfeature = 'segment'\nlevel = {level}\nmin_score = 1\nmean_fraction_bits = {}\n",
-            size.ilog2()
-        ),
-        FeatureKind::Flow => "[[spatial]]\nfeature = 'flow'\nmin_score = 0.1\n".to_owned(),
+    let entry = |kind: &FeatureKind| {
+        let keys = [
+            kind.score_unit().is_count().then(|| format!("level = {level}\nmin_score = 1\n")),
+            (!kind.score_unit().is_count()).then(|| "min_score = 0.1\n".to_owned()),
+            kind.has_second_pass().then(|| format!("mean_fraction_bits = {}\n", size.ilog2())),
+        ];
+        format!(
+            "[[spatial]]\nfeature = '{kind}'\n{}",
+            keys.into_iter().flatten().collect::<String>()
+        )
     };
     let all = organization.feature_kinds();
     let of = match turn % 6 {

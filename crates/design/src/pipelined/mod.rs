@@ -2,7 +2,6 @@
 //! The pipelined organization: one RPU per region, each with one pixel per clock; see
 //! `docs/timing.md`.
 
-mod feature;
 mod hardware;
 mod ports;
 mod rules;

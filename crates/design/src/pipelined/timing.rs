@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The timing of a pipelined design: the numbers behind `docs/timing.md`.
 
-use super::feature::score_latency;
 use crate::timing::DepartureTiming;
-use crate::{DesignTiming, PipelinedDesign, Pipelining};
+use crate::{DesignTiming, FeatureHardware, PipelinedDesign, Pipelining};
 use foveate_camera::Neighborhood;
 
 /// Registers between a filter window and the stream behind it in a plain design: window, result.
@@ -54,7 +53,8 @@ impl PipelinedTiming {
             Pipelining::Plain => (FILTER_REGISTERS, COUNT_LATENCY),
             Pipelining::Deep => (DEEP_FILTER_REGISTERS, DEEP_COUNT_LATENCY),
         };
-        let latencies = design.features().iter().map(|f| score_latency(f.kind(), pipelining));
+        let score_latency = |kind| FeatureHardware::in_pipelined(kind).score_latency(pipelining);
+        let latencies = design.features().iter().map(|feature| score_latency(feature.kind()));
         // The tail is delayed so far that every score is final when the frame is done.
         let tail_delay = latencies.fold(count_latency, u32::max) - 1;
         let filter = if design.filter().has_window() { flush + filter_registers } else { 0 };

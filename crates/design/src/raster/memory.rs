@@ -3,8 +3,7 @@
 //! read port, except a single-port frame store.
 
 use super::RasterTiming;
-use super::feature::FeatureAccumulation;
-use crate::{CLASS_BITS, CLASS_WORD_BITS, Design, FrameStoreKind, RasterDesign};
+use crate::{CLASS_BITS, CLASS_WORD_BITS, Design, FeatureHardware, FrameStoreKind, RasterDesign};
 use foveate_camera::{
     Periphery, ReferencePolicy, ReferenceWriteTime, SpatialFeature, bits_for, index_bits,
 };
@@ -85,13 +84,7 @@ impl MemorySizes {
     fn from_design(design: RasterDesign<'_>) -> Self {
         let timing = RasterTiming::from_design(design);
         let rows = u64::from(timing.buffer_rows * design.region_size());
-        let counts = |feature: &&SpatialFeature| match FeatureAccumulation::from_feature(feature) {
-            FeatureAccumulation::Hits => true,
-            FeatureAccumulation::Deviations(_)
-            | FeatureAccumulation::Squares(_)
-            | FeatureAccumulation::Extremes
-            | FeatureAccumulation::Displacements => false,
-        };
+        let counts = |feature: &&SpatialFeature| feature.kind().counts_window_hits();
         let hits = design.features().iter().filter(counts).count();
         Self {
             word: design.pixels_per_clock() * design.pixel_bits(),
@@ -155,22 +148,16 @@ impl MemorySizes {
         let side = u64::from(design.region_size());
         let column = |holds, bits| RasterMemory { contents: holds, words: self.columns, bits };
         let mut list = vec![column("counts", (self.hits + 1) * bits_for((side - 1) * side))];
-        let sums = column("sums of pixels", design.pixel_sum_bits());
-        let extremes = column("smallest and largest pixels", 2 * design.pixel_bits());
-        let differences = column("four sums of differences", 4 * design.pixel_sum_bits());
-        // Features share a memory, so each place of this array is one memory at most.
-        let memories = |feature: &SpatialFeature| match FeatureAccumulation::from_feature(feature) {
-            FeatureAccumulation::Hits => [None; 4],
-            FeatureAccumulation::Deviations(_) => [Some(sums), None, None, None],
-            FeatureAccumulation::Squares(widths) => {
-                let squares = column("sums of squares", widths.square_sum_bits);
-                [Some(sums), Some(squares), None, None]
-            }
-            FeatureAccumulation::Extremes => [None, None, Some(extremes), None],
-            FeatureAccumulation::Displacements => [None, None, None, Some(differences)],
-        };
-        let of_features: Vec<_> = design.features().iter().map(memories).collect();
-        list.extend((0..4).filter_map(|place| of_features.iter().find_map(|own| own[place])));
+        let features = design.features().iter();
+        if features.clone().any(|feature| feature.kind().spec().source.needs_pixel_sum()) {
+            list.push(column("sums of pixels", design.pixel_sum_bits()));
+        }
+        let mut own: Vec<_> = features.collect();
+        own.sort_by_key(|feature| feature.kind());
+        list.extend(own.into_iter().filter_map(|feature| {
+            let (contents, bits) = FeatureHardware::in_raster(feature.kind()).memory?;
+            Some(column(contents, bits(&design, feature)))
+        }));
         list
     }
 
@@ -234,12 +221,9 @@ impl MemorySizes {
                     + summary,
             ));
         }
-        let bits = |feature: &SpatialFeature| match FeatureAccumulation::from_feature(feature) {
-            FeatureAccumulation::Hits => design.count_bits(),
-            FeatureAccumulation::Deviations(_) => 0,
-            FeatureAccumulation::Squares(_)
-            | FeatureAccumulation::Extremes
-            | FeatureAccumulation::Displacements => feature.score_bits(),
+        let bits = |feature: &SpatialFeature| match feature.kind().has_second_pass() {
+            true => 0,
+            false => feature.score_bits(),
         };
         let decision_bits = design.count_bits() + design.features().iter().map(bits).sum::<u32>();
         let decision_bits = decision_bits + 2 * u32::from(design.periphery().is_some());

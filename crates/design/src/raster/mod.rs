@@ -2,7 +2,6 @@
 //! The raster organization: one core for all regions, which takes K pixels per clock. The numbers
 //! are those of `docs/raster.md`.
 
-mod feature;
 mod hardware;
 mod memory;
 mod ports;

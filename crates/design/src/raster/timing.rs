@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The timing of a raster core: the numbers of `docs/raster.md`.
 
-use super::feature::FeatureAccumulation;
 use crate::timing::DepartureTiming;
-use crate::{DesignTiming, Pipelining, RasterDesign};
+use crate::{DesignTiming, FeatureHardware, Pipelining, RasterDesign};
 use foveate_camera::{Periphery, ReferenceWriteTime, RegionAction};
 
 /// Clocks by which a stall must be shorter because of the readout itself, in addition to those of
@@ -81,8 +80,8 @@ impl RasterTiming {
             Pipelining::Plain => (2 + 4 * filter + feature, 4, 1, 2),
             Pipelining::Deep => (4 + 9 * filter + 3 * feature, 6, 2, 3),
         };
-        let latencies =
-            design.features().iter().map(|f| FeatureAccumulation::from_feature(f).score_latency());
+        let features = design.features().iter();
+        let latencies = features.map(|f| FeatureHardware::in_raster(f.kind()).score_latency);
         let score_latency = latencies.max().unwrap_or_default();
         let (pass_after_store, pass_to_decision) = match design.pipelining() {
             Pipelining::Plain => (8, 4),

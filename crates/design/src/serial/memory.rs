@@ -3,9 +3,8 @@
 //! ([`SlotArea`]), and the registers of the lane and of the sequencer ([`LaneWidths`]).
 //! [`MemoryChoice`] says why the memory is of its kind.
 
-use super::feature::{chain_bits, feature_register_widths};
-use crate::{LaneMemoryKind, PixelFeed, SerialDesign};
-use foveate_camera::{DenoiseFilter, ReferenceWriteTime, index_bits};
+use crate::{FeatureHardware, LaneMemoryKind, PixelFeed, SerialDesign};
+use foveate_camera::{DenoiseFilter, ReferenceWriteTime, SpatialFeature, index_bits};
 use std::fmt;
 
 /// Largest number of memory LUTs of the distributed memory of a lane, unless the configuration
@@ -205,7 +204,9 @@ impl LaneWidths {
             PixelFeed::Raster => pixel,
         };
         let sums = design.block_mean_division();
-        let counts = design.features().iter().map(|feature| chain_bits(&design, feature));
+        let hardware = |feature: &SpatialFeature| FeatureHardware::in_serial(feature.kind());
+        let counts =
+            design.features().iter().map(|feature| (hardware(feature).chain_bits)(&design));
         let chain = counts
             .fold(design.max_score_bits(), u32::max)
             .max(raster)
@@ -228,8 +229,11 @@ impl LaneWidths {
             }),
         };
         for feature in design.features() {
-            let needs = feature_register_widths(&design, feature, chain);
+            let needs = (hardware(feature).registers)(&design, feature);
             widths.accumulator = widths.accumulator.max(needs.accumulator);
+            if hardware(feature).takes_accumulator {
+                widths.accumulator = widths.accumulator.max(chain);
+            }
             widths.second = widths.second.max(needs.second);
             widths.scale = widths.scale.max(needs.scale);
         }

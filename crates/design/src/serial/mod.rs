@@ -3,7 +3,7 @@
 //!
 //! K regions share a lane, and L lanes work in step.
 
-mod feature;
+mod block_mean;
 mod folds;
 mod hardware;
 mod memory;
@@ -11,7 +11,7 @@ mod ports;
 mod rules;
 mod timing;
 
-pub use feature::{BlockMeanDivision, FlowSearch};
+pub use block_mean::BlockMeanDivision;
 pub use hardware::SerialHardware;
 pub use memory::{LaneMemory, LaneWidths, MemoryChoice, SlotArea, SlotAreaKind};
 pub use timing::{SerialPhase, SerialTiming};

@@ -3,10 +3,9 @@
 
 use std::fmt;
 
-use super::feature;
 use crate::timing::DepartureTiming;
-use crate::{DesignTiming, Pipelining, PixelFeed, SerialDesign};
-use foveate_camera::{DenoiseFilter, FeatureKind};
+use crate::{DesignTiming, FeatureHardware, Pipelining, PixelFeed, SerialDesign};
+use foveate_camera::{DenoiseFilter, FeatureKind, SpatialFeature};
 
 /// A phase of the lanes for one slot. The variants are in the order of the phases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -221,7 +220,8 @@ fn read_latency(design: SerialDesign<'_>) -> u32 {
     let word = match design.pipelining() {
         Pipelining::Plain => 0,
         Pipelining::Deep => {
-            1 + u32::from(design.features().iter().any(feature::has_computed_operand))
+            let hardware = |f: &SpatialFeature| FeatureHardware::in_serial(f.kind());
+            1 + u32::from(design.features().iter().any(|f| hardware(f).computes_operand))
         }
     };
     design.lane_memory().kind.read_latency() + word
@@ -284,7 +284,7 @@ fn phases(design: SerialDesign<'_>) -> Vec<(SerialPhase, u64)> {
     for feature in design.features() {
         list.push((
             SerialPhase::FeaturePass(feature.kind()),
-            feature::pass_steps(&design, feature),
+            (FeatureHardware::in_serial(feature.kind()).pass_steps)(&design, feature),
         ));
         list.push((SerialPhase::RotateScore(feature.kind()), rotation));
     }

@@ -4,6 +4,7 @@
 
 mod configuration;
 mod depth;
+mod feature_pages;
 mod fuzz;
 #[path = "../../../boards/tests/boards/hostile_texts.rs"]
 #[allow(dead_code, reason = "files of boards need more of it")]

@@ -111,14 +111,20 @@ fn small(max: u32) -> impl Strategy<Value = u32> {
     prop_oneof![2 => 0..=max.min(4), 2 => 0..=max / 4, 1 => 0..=max]
 }
 
-/// Returns the number of valid levels of `segment`, and the largest minimum. Pixels of 1 bit are
-/// never on both sides of a mean without a fraction, with which only the minimum 0 is valid.
-fn segment_ranges(max: u32, fraction_bits: u32, half: u32) -> (u32, u32) {
-    match (max.div_ceil(2), fraction_bits) {
-        (1, 0) => (1, 0),
-        (levels, 0) => (levels - 1, half),
-        (levels, _) => (levels, half),
-    }
+/// Returns the largest level with which some region has a score, and the largest whole minimum. No
+/// region has one if pixels of 1 bit are never on both sides of a mean without a fraction.
+fn largest_thresholds(entry: &SpatialConfig, side: u32, bits: u32) -> (Option<u32>, u32) {
+    let counts = entry.feature.score_unit().is_count();
+    let least = if counts { Decimal::from_whole(1) } else { Decimal::from_billionths(1) };
+    let level = counts.then_some(0);
+    let spatial = vec![SpatialConfig { level, min_score: Some(least), ..entry.clone() }];
+    let mut config = CameraConfig { spatial, ..CameraConfig::default() };
+    (config.region.size, config.frame.pixel_bits) = (side, bits);
+    config.validate().map_or((level, 0), |camera| {
+        let feature = &camera.features()[0];
+        let minimum = u32::try_from(feature.score_max() / feature.unit());
+        (feature.largest_level(), minimum.expect("at most the square of a pixel"))
+    })
 }
 
 fn feature(
@@ -127,27 +133,21 @@ fn feature(
     bits: u32,
     fraction_bits: u32,
 ) -> BoxedStrategy<SpatialConfig> {
-    let (max, n) = ((1u32 << bits) - 1, side * side);
-    let (level_max, minimum) = match kind {
-        FeatureKind::Edge => (6 * max, small(n).boxed()),
-        FeatureKind::Corner => (max, small(n).boxed()),
-        FeatureKind::Mad => (0, small(max / 3).boxed()),
-        FeatureKind::Variance => (0, small(max * (max / 6)).boxed()),
-        FeatureKind::Range => (0, small(max).boxed()),
-        FeatureKind::Surface => (0, small(max / 2).boxed()),
-        FeatureKind::Flow => (0, small(max / 3).boxed()),
-        FeatureKind::Segment => {
-            let (levels, minimum_max) = segment_ranges(max, fraction_bits, n / 2);
-            (levels, small(minimum_max).boxed())
-        }
-    };
-    (small(level_max.saturating_sub(1)), minimum, 1..=3.min(side - 1))
-        .prop_map(move |(level, minimum, radius)| SpatialConfig {
-            feature: kind,
-            level: (level_max > 0).then_some(level),
-            min_score: Some(Decimal::from_whole(minimum.into())),
-            mean_fraction_bits: kind.has_second_pass().then_some(fraction_bits),
-            radius: kind.is_displacement().then_some(radius),
+    (1..=3.min(side - 1))
+        .prop_flat_map(move |radius| {
+            let entry = SpatialConfig {
+                mean_fraction_bits: kind.has_second_pass().then_some(fraction_bits),
+                radius: kind.is_displacement().then_some(radius),
+                ..SpatialConfig::new(kind)
+            };
+            let (level_max, min_max) = largest_thresholds(&entry, side, bits);
+            (small(level_max.unwrap_or(0)), small(min_max)).prop_map(move |(level, minimum)| {
+                SpatialConfig {
+                    level: level_max.map(|_| level),
+                    min_score: Some(Decimal::from_whole(minimum.into())),
+                    ..entry.clone()
+                }
+            })
         })
         .boxed()
 }

@@ -423,10 +423,11 @@ fn trial_thresholds_of_8_bits(feature: FeatureKind) -> Vec<Vec<SpatialConfig>> {
             LEVELS.map(|level| level.pow(measure.scaling_exponent())).into()
         }
     };
-    let levels: Vec<Option<u32>> = match feature.trial_levels() {
-        [] => vec![None],
-        levels => levels.iter().copied().map(Some).collect(),
-    };
+    let levels: Vec<Option<u32>> =
+        match feature.spec().level.as_ref().map_or(&[][..], |level| level.trial) {
+            [] => vec![None],
+            levels => levels.iter().copied().map(Some).collect(),
+        };
     let radii: Vec<Option<u32>> =
         if feature.is_displacement() { FLOW_RADII.map(Some).collect() } else { vec![None] };
     let pairs = levels.iter().flat_map(|&level| radii.iter().map(move |&radius| (level, radius)));

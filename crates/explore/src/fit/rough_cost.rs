@@ -2,8 +2,8 @@
 //! A rough cost of a design before its synthesis, which only orders the designs that are
 //! synthesized. The choice is made with the figures of Yosys.
 
-use foveate_camera::{DenoiseFilter, FeatureKind};
-use foveate_design::{Design, Hardware, RasterMemory};
+use foveate_camera::DenoiseFilter;
+use foveate_design::{Design, FeatureHardware, Hardware, RasterMemory};
 use foveate_estimate::FpgaDevice;
 
 use super::FitRequest;
@@ -126,49 +126,18 @@ fn rough_logic_luts(design: &Design) -> f64 {
     let filter = relative_filter_cost(design.filter());
     match design.hardware() {
         Hardware::Pipelined(_) => {
-            let features: f64 = kinds
-                .map(|kind| match kind {
-                    FeatureKind::Corner => 30.0,
-                    FeatureKind::Edge
-                    | FeatureKind::Mad
-                    | FeatureKind::Variance
-                    | FeatureKind::Range
-                    | FeatureKind::Segment => 10.0,
-                    FeatureKind::Surface => 20.0,
-                    FeatureKind::Flow => unreachable!("pipelined refuses flow"),
-                })
-                .sum();
+            let features: f64 =
+                kinds.map(|kind| FeatureHardware::in_pipelined(kind).rough_luts).sum();
             f64::from(design.regions()) * (8.0 + features + 37.0 * filter) * bits
         }
         Hardware::Serial(own) => {
-            let features: f64 = kinds
-                .map(|kind| match kind {
-                    FeatureKind::Edge => 2.0,
-                    FeatureKind::Corner | FeatureKind::Segment => 3.5,
-                    FeatureKind::Mad
-                    | FeatureKind::Variance
-                    | FeatureKind::Range
-                    | FeatureKind::Surface
-                    | FeatureKind::Flow => 6.0,
-                })
-                .sum();
+            let features: f64 = kinds.map(|kind| FeatureHardware::in_serial(kind).rough_luts).sum();
             let lanes = f64::from(design.with_hardware(own).lanes());
             300.0 + lanes * (2.5 + features + 0.5 * filter) * bits
         }
         // A core, and the cost of each pixel of a word.
         Hardware::Raster(own) => {
-            let features: f64 = kinds
-                .map(|kind| match kind {
-                    FeatureKind::Edge => 11.0,
-                    FeatureKind::Corner => 14.0,
-                    FeatureKind::Mad
-                    | FeatureKind::Variance
-                    | FeatureKind::Range
-                    | FeatureKind::Segment => 6.0,
-                    FeatureKind::Surface => 10.0,
-                    FeatureKind::Flow => unreachable!("raster refuses flow"),
-                })
-                .sum();
+            let features: f64 = kinds.map(|kind| FeatureHardware::in_raster(kind).rough_luts).sum();
             let pixels = f64::from(own.pixels_per_clock);
             380.0 + pixels * (2.0 + features + 17.0 * filter) * bits
         }

@@ -153,32 +153,43 @@ fn small(max: u32) -> impl Strategy<Value = u32> {
     prop_oneof![2 => 0..=max.min(4), 2 => 0..=max / 4, 1 => 0..=max]
 }
 
+/// Returns the largest level with which some region has a score, and the largest whole minimum. No
+/// region has one if pixels of 1 bit are never on both sides of a mean without a fraction.
+fn largest_thresholds(entry: &SpatialConfig, side: u32, bits: u32) -> (Option<u32>, u32) {
+    let counts = entry.feature.score_unit().is_count();
+    let least = if counts { Decimal::from_whole(1) } else { Decimal::from_billionths(1) };
+    let level = counts.then_some(0);
+    let spatial = vec![SpatialConfig { level, min_score: Some(least), ..entry.clone() }];
+    let mut config = CameraConfig { spatial, ..CameraConfig::default() };
+    (config.region.size, config.frame.pixel_bits) = (side, bits);
+    config.validate().map_or((level, 0), |camera| {
+        let feature = &camera.features()[0];
+        let minimum = u32::try_from(feature.score_max() / feature.unit());
+        (feature.largest_level(), minimum.expect("at most the square of a pixel"))
+    })
+}
+
 fn feature(kind: FeatureKind, side: u32, bits: u32, fraction: u32) -> BoxedStrategy<SpatialConfig> {
-    let (max, n) = ((1_u32 << bits) - 1, side * side);
-    let (level_max, unit, min_max) = match kind {
-        FeatureKind::Edge => (6 * max, 1, n),
-        FeatureKind::Corner => (max, 1, n),
-        FeatureKind::Mad => (0, 100, max / 3),
-        FeatureKind::Variance => (0, 100, max * (max / 6)),
-        FeatureKind::Range => (0, 100, max),
-        FeatureKind::Surface => (0, 100, max / 2),
-        FeatureKind::Flow => (0, 100, max / 3),
-        // Pixels of 1 bit are never on both sides of a mean without a fraction.
-        FeatureKind::Segment if max == 1 && fraction == 0 => (1, 1, 0),
-        FeatureKind::Segment => (max.div_ceil(2) - u32::from(fraction == 0), 1, n / 2),
-    };
     // Minima in grey levels have two digits after the decimal point.
-    let decimal = move |whole: u32, part: u32| {
-        let value = f64::from(whole) + f64::from(part % unit) / 100.0;
-        Decimal::from_f64((value * 100.0).round() / 100.0)
-    };
-    (small(level_max.saturating_sub(1)), small(min_max), 0..100_u32, 1..=3.min(side - 1))
-        .prop_map(move |(level, whole, part, radius)| SpatialConfig {
-            feature: kind,
-            level: (level_max > 0).then_some(level),
-            min_score: decimal(whole, if whole < min_max { part } else { 0 }),
-            mean_fraction_bits: kind.has_second_pass().then_some(fraction),
-            radius: kind.is_displacement().then_some(radius),
+    let hundredths = if kind.score_unit().is_count() { 1 } else { 100 };
+    (1..=3.min(side - 1), 0..100_u32)
+        .prop_flat_map(move |(radius, part)| {
+            let entry = SpatialConfig {
+                mean_fraction_bits: kind.has_second_pass().then_some(fraction),
+                radius: kind.is_displacement().then_some(radius),
+                ..SpatialConfig::new(kind)
+            };
+            let (level_max, min_max) = largest_thresholds(&entry, side, bits);
+            (small(level_max.unwrap_or(0)), small(min_max)).prop_map(move |(level, whole)| {
+                let part = if whole < min_max { part % hundredths } else { 0 };
+                SpatialConfig {
+                    level: level_max.map(|_| level),
+                    min_score: Decimal::from_f64(
+                        (f64::from(whole) * 100.0 + f64::from(part)).round() / 100.0,
+                    ),
+                    ..entry.clone()
+                }
+            })
         })
         .boxed()
 }

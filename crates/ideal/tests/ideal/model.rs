@@ -15,19 +15,7 @@ use proptest::prelude::*;
 
 /// Converts a score of the model to the unit of the ideal camera.
 fn score_in_ideal_unit(camera: &Camera, feature: usize, score: u64) -> f64 {
-    let n = f64::from(camera.region_pixels());
-    let feature = &camera.features()[feature];
-    match feature.kind() {
-        FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Range | FeatureKind::Segment => {
-            score as f64
-        }
-        FeatureKind::Surface | FeatureKind::Flow => score as f64 / n,
-        FeatureKind::Mad => {
-            let bits = feature.mean().unwrap().fraction_bits;
-            score as f64 / (n * f64::from(1_u32 << bits))
-        }
-        FeatureKind::Variance => score as f64 / (n * n),
-    }
+    score as f64 / camera.features()[feature].unit() as f64
 }
 
 fn crop(camera: &Camera, padded: &Frame) -> Vec<f64> {

@@ -25,22 +25,17 @@ pub(crate) fn config(
     config.camera.temporal.min_count = 3;
     config.camera.spatial = features.iter().map(|&kind| SpatialConfig::new(kind)).collect();
     for spatial in &mut config.camera.spatial {
-        // `segment` finds pixels of 1 bit on both sides of a mean only if the mean has a fraction.
-        if bits == 1 && features.contains(&FeatureKind::Segment) && spatial.has_mean_fraction() {
+        // Pixels of 1 bit are on both sides of a mean only if the mean has a fraction.
+        let needs_fraction =
+            features.iter().any(|kind| kind.has_second_pass() && kind.score_unit().is_count());
+        if bits == 1 && needs_fraction && spatial.has_mean_fraction() {
             spatial.mean_fraction_bits = Some(1);
         }
-        match spatial.feature {
-            FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Segment => {
-                spatial.level = Some((1 << bits) / 4);
-                spatial.min_score = Some(Decimal::from_whole(2));
-            }
-            FeatureKind::Mad
-            | FeatureKind::Variance
-            | FeatureKind::Range
-            | FeatureKind::Surface
-            | FeatureKind::Flow => {
-                spatial.min_score = Decimal::from_f64(0.2);
-            }
+        if spatial.feature.score_unit().is_count() {
+            spatial.level = Some((1 << bits) / 4);
+            spatial.min_score = Some(Decimal::from_whole(2));
+        } else {
+            spatial.min_score = Decimal::from_f64(0.2);
         }
     }
     config
@@ -49,21 +44,6 @@ pub(crate) fn config(
 /// Validates a configuration that is known to be valid.
 pub(crate) fn design(config: &DesignConfig) -> Design {
     config.validate().unwrap_or_else(|error| unreachable!("the matrix holds designs: {error}"))
-}
-
-/// Returns a list of features that contains this one, alone or among others.
-fn features_with(kind: FeatureKind) -> &'static [FeatureKind] {
-    use FeatureKind::{Corner, Edge, Flow, Mad, Range, Segment, Surface, Variance};
-    match kind {
-        Edge => &[Edge],
-        Corner => &[Edge, Corner],
-        Mad => &[Mad, Edge],
-        Variance => &[Variance, Corner, Edge, Mad],
-        Range => &[Range, Mad],
-        Surface => &[Surface, Edge],
-        Segment => &[Segment, Corner, Mad],
-        Flow => &[Flow, Edge],
-    }
 }
 
 /// Returns an organization that computes the score of the feature: `pipelined` if it can.
@@ -93,7 +73,7 @@ pub(crate) fn design_matrix(size: (u32, u32), side: u32, bits: u32) -> Vec<Desig
                     // references and payloads.
                     let turn = designs.len() + designs.len() / kinds.len();
                     let kind = kinds[turn % kinds.len()];
-                    let mut config = config(size, side, bits, features_with(kind));
+                    let mut config = config(size, side, bits, kind.spec().companions);
                     config.hardware.organization = organization_for(kind).into();
                     config.camera.region.neighborhood = neighborhood;
                     config.camera.denoise.filter = filter;
@@ -117,17 +97,13 @@ pub(crate) fn designs_with_means(size: (u32, u32), side: u32, bits: u32) -> Vec<
         config.camera.periphery.blocks = Some(SUMMARY_BLOCKS[number % SUMMARY_BLOCKS.len()]);
         config.camera.periphery.level = Some((1 << bits) >> (number % 7 + 1));
         for spatial in &mut config.camera.spatial {
-            spatial.min_score = match spatial.feature {
-                FeatureKind::Edge | FeatureKind::Corner => {
-                    Some(Decimal::from_whole(u64::from(side * side / 2)))
-                }
-                FeatureKind::Segment => Some(Decimal::from_whole(u64::from(side * side / 8))),
-                FeatureKind::Mad
-                | FeatureKind::Variance
-                | FeatureKind::Range
-                | FeatureKind::Surface
-                | FeatureKind::Flow => Some(Decimal::from_whole(1 << (bits - 2))),
+            let feature = design_without_means.feature(spatial.feature);
+            let score_max = feature.expect("the design has its features").score_max();
+            let minimum = match &spatial.feature.spec().level {
+                Some(level) => score_max / level.random_divisor,
+                None => 1 << (bits - 2),
             };
+            spatial.min_score = Some(Decimal::from_whole(minimum));
         }
         designs.push(design(&config));
     }

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tests that a page computes what the model computes, and that the facts about a camera are true.
 
-use foveate_camera::RegionClass;
+use foveate_camera::{FeatureKind, RegionClass};
 use foveate_design::{DesignConfig, PRESETS};
 use foveate_model::FunctionalCamera;
 use foveate_pixels::{Frame, convert_depth, luma};
 use foveate_web::PageCameras;
 
 pub(crate) const SIZE: (u32, u32) = (61, 43);
-const ALL: &str = "spatial=[{feature=\"edge\",level=40},{feature=\"corner\",level=10},{feature=\"mad\",min_score=4},{feature=\"variance\"},{feature=\"range\"},{feature=\"surface\"},{feature=\"segment\"},{feature=\"flow\",radius=2}]";
 /// The organization that supports all features.
 const SERIAL: &str = "hardware.organization=\"serial\"";
 
@@ -16,16 +15,18 @@ const SERIAL: &str = "hardware.organization=\"serial\"";
 /// padding, means of raw pixels.
 pub(crate) fn configurations() -> Vec<String> {
     let presets = PRESETS.iter().filter(|preset| !preset.toml.contains("[frame]"));
+    let entries = FeatureKind::ALL.iter().map(|kind| format!("{{feature=\"{kind}\"}}"));
+    let all = &*format!("spatial=[{}]", entries.collect::<Vec<_>>().join(","));
     let more = [
         &[
-            ALL,
+            all,
             SERIAL,
             "frame.pixel_bits=10",
             "render.irrelevant=\"mean\"",
             "render.payload=\"raw\"",
         ][..],
         &[
-            ALL,
+            all,
             SERIAL,
             "frame.pixel_bits=5",
             "region.size=7",
@@ -39,7 +40,7 @@ pub(crate) fn configurations() -> Vec<String> {
             "region.neighborhood=\"shared\"",
         ],
         &[
-            ALL,
+            all,
             SERIAL,
             "render.irrelevant=\"mean\"",
             "zones={off_level=9,keen={temporal={level=3},spatial=[{feature=\"edge\",min_score=2}]},areas=[{class=\"off\",rectangle=[0,0,20,30]},{class=\"keen\",rectangle=[20,8,16,16]},{class=\"always\",rectangle=[40,30,9,9]}]}",

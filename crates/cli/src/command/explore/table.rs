@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 use std::path::Path;
 
+use foveate_camera::{FeatureKind, ScoreUnit};
 use foveate_estimate::ramb36;
 use foveate_explore::{DesignRow, Exploration, ProcessEnergy};
 use foveate_output::report::ReportTable;
@@ -106,15 +107,32 @@ fn measured_columns(found: &Exploration) -> Vec<PointColumn> {
     COLUMNS.into_iter().filter(has_figure).collect()
 }
 
-const NOTE: &str = "flips, SRS, TRS: regions whose decision differs from that of the ideal camera. \
-     missed: of its active regions, not active in the design; false: of the design's active regions, not active in \
-     the ideal camera; both without the first frame of every clip. stale %: of the relevant regions, those whose screen \
-     differs from the design's own denoised frame. worst clip: the clip with the most flips. IoU: of the active areas. score errors: largest, mean, RMS; edge, corner, segment and \
-     temporal as share of a region's pixels, mad, range, surface and flow in grey levels, variance in \
-     their squares. PSNR and SSIM of the screen against the ideal's, and against the input. stale: largest and mean \
-     difference of the screen from the scene in relevant regions in grey levels, and frames in a \
-     row that a region was stale. MHz: the clock, with its range if it is estimated. frames/s: at \
-     that clock. LUT/FF/mem: one RPU or lane. device %: the share of an XCVU9P.";
+/// Returns the note on the columns of a table.
+fn column_note() -> String {
+    let with_unit = |unit: ScoreUnit, others: &[&'static str]| {
+        let kinds = FeatureKind::ALL.iter().filter(|kind| kind.score_unit() == unit);
+        let names: Vec<_> = kinds.map(|kind| kind.name()).chain(others.iter().copied()).collect();
+        match names.split_last() {
+            Some((last, [_, ..])) => format!("{} and {last}", names[..names.len() - 1].join(", ")),
+            _ => names.concat(),
+        }
+    };
+    format!(
+        "flips, SRS, TRS: regions whose decision differs from that of the ideal camera. missed: of its active regions, \
+         not active in the design; false: of the design's active regions, not active in the ideal camera; both without \
+         the first frame of every clip. stale %: of the relevant regions, those whose screen differs from the design's \
+         own denoised frame. worst clip: the clip with the most flips. IoU: of the active areas. score errors: largest, \
+         mean, RMS; {counts} as share of a region's pixels, {levels} in grey levels, {squares} in their squares. PSNR \
+         and SSIM of the screen against the ideal's, and against the input. stale: largest and mean difference of the \
+         screen from the scene in relevant regions in grey levels, and frames in a row that a region was stale. MHz: the \
+         clock, with its range if it is estimated. frames/s: at that clock. LUT/FF/mem: one RPU or lane. device %: the \
+         share of an XCVU9P.",
+        counts = with_unit(ScoreUnit::Pixels, &["temporal"]),
+        levels = with_unit(ScoreUnit::Levels, &[]),
+        squares = with_unit(ScoreUnit::SquaredLevels, &[]),
+    )
+}
+
 const PROCESS_NOTE: &str = "unit um2, mm2, nJ/region, mW: in the cells of the process; they are lower bounds. MHz is \
      not above the highest clock of the cells.";
 
@@ -127,7 +145,7 @@ pub(super) fn markdown(found: &Exploration) -> String {
         std::iter::once(found.settings_text(row)).chain(cells).collect()
     }));
     let note = found.library.is_some().then(|| format!("\n{PROCESS_NOTE}"));
-    table.notes.push(NOTE.to_owned() + &note.unwrap_or_default());
+    table.notes.push(column_note() + &note.unwrap_or_default());
     // The first heading is one space.
     table.markdown().replacen("|  |", "| |", 1)
 }

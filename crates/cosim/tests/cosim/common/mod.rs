@@ -6,7 +6,7 @@ pub(crate) mod vectors;
 
 use foveate_camera::{FeatureKind, SpatialConfig};
 use foveate_cosim::{CosimError, CosimJob, CosimLevel, CosimReport, Simulator, Stimulus};
-use foveate_design::{Design, DesignConfig};
+use foveate_design::{Design, DesignConfig, Organization};
 use foveate_tools::{Cache, Toolchain, testing::require_tools};
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -17,6 +17,15 @@ pub(crate) fn feature(kind: FeatureKind, mean_fraction_bits: u32) -> SpatialConf
     let mut feature = SpatialConfig::new(kind);
     feature.mean_fraction_bits = kind.has_second_pass().then_some(mean_fraction_bits);
     feature
+}
+
+/// Returns sets of the features of an organization: each with its companions, and all.
+pub(crate) fn feature_sets(organization: Organization) -> Vec<Vec<FeatureKind>> {
+    let all = organization.feature_kinds();
+    let own = |kind: &FeatureKind| {
+        kind.spec().companions.iter().copied().filter(|kind| all.contains(kind)).collect()
+    };
+    all.iter().map(own).chain([all.clone()]).collect()
 }
 
 /// Returns the name of a configuration, from the keys that all organizations have.

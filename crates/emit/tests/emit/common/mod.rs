@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Designs to emit, in which every value of the configuration occurs, mostly with every other.
 
-use foveate_design::{Design, DesignConfig};
+use foveate_camera::FeatureKind;
+use foveate_design::{Design, DesignConfig, Organization};
 use foveate_tools::testing::cover;
 use std::process::{Command, Stdio};
 
@@ -27,20 +28,21 @@ pub(crate) fn design(toml: &str) -> Design {
     DesignConfig::from_toml(toml).unwrap().validate().unwrap()
 }
 
-const FEATURES: [&str; 10] = [
-    "[{feature='edge',level=4,min_score=1}]",
-    "[{feature='corner',level=0,min_score=1}]",
-    "[{feature='mad',min_score=0}]",
-    "[{feature='mad',min_score=0,mean_fraction_bits=2}]",
-    "[{feature='variance',min_score=0}]",
-    "[{feature='range',min_score=0}]",
-    "[{feature='surface',min_score=0}]",
-    "[{feature='segment',level=0,min_score=0,mean_fraction_bits=1}]",
-    "[{feature='edge',level=4,min_score=1},{feature='corner',level=0,min_score=1}]",
-    "[{feature='mad',min_score=0},{feature='edge',level=4,min_score=1},\
-      {feature='corner',level=0,min_score=1},{feature='variance',min_score=0},{feature='range',min_score=0},\
-      {feature='surface',min_score=0},{feature='segment',level=0,min_score=0}]",
-];
+/// Returns the features of an organization as values of the key `spatial`, with the lowest
+/// thresholds: each alone, one with a fraction of the mean, two that share a window, and all. The
+/// minimum of 0 lets a region be active without a reference.
+fn feature_lists(organization: Organization) -> Vec<String> {
+    let entry = |kind: &FeatureKind| {
+        let level = if kind.score_unit().is_count() { ",level=0" } else { "" };
+        format!("{{feature='{kind}',min_score=0{level}}}")
+    };
+    let all: Vec<_> = organization.feature_kinds().iter().map(entry).collect();
+    let pair = format!("{},{}", entry(&FeatureKind::Edge), entry(&FeatureKind::Corner));
+    let fraction = "{feature='mad',min_score=0,mean_fraction_bits=2}".to_owned();
+    let lists = all.iter().cloned().chain([fraction, pair, all.join(",")]);
+    lists.map(|list| format!("[{list}]")).collect()
+}
+
 const WINDOW_FILTERS: [&str; 3] = ["median3x3", "switching3x3", "binomial3x3"];
 const SIZES: [u32; 7] = [2, 3, 5, 8, 16, 20, 64];
 const DEPTHS: [u32; 4] = [1, 8, 10, 16];
@@ -66,7 +68,7 @@ fn zones_table(has_zones: bool, summarizes: bool, size: u32) -> String {
 /// Returns configurations of pipelined designs as TOML.
 pub(crate) fn pipelined_matrix() -> Vec<String> {
     let mut list = Vec::new();
-    for (index, features) in FEATURES.iter().enumerate() {
+    for (index, features) in feature_lists(Organization::Pipelined).iter().enumerate() {
         for choice in 0..8 {
             // The indices of sizes and depths do not repeat in step with the choices, so all pairs
             // occur.
@@ -116,20 +118,10 @@ const SERIAL_DEPTHS: [u32; 5] = [8, 1, 16, 2, 10];
 /// one lane.
 const SERIAL_GRIDS: [(u32, u32, u32); 5] = [(2, 1, 1), (3, 2, 4), (1, 1, 1), (3, 1, 3), (5, 2, 3)];
 
-/// Features that only the serial organization has: alone, and with all others. The minimum of 0
-/// lets a region be active without a reference.
-const SERIAL_FEATURES: [&str; 3] = [
-    "[{feature='flow',min_score=0}]",
-    "[{feature='edge',level=4,min_score=1},{feature='flow',radius=3,min_score=0}]",
-    "[{feature='flow',radius=2,min_score=0},{feature='mad',min_score=0},{feature='edge',level=4,min_score=1},\
-      {feature='corner',level=0,min_score=1},{feature='variance',min_score=0},{feature='range',min_score=0},\
-      {feature='surface',min_score=0},{feature='segment',level=0,min_score=0}]",
-];
-
 /// Returns configurations of serial designs as TOML.
 pub(crate) fn serial_matrix() -> Vec<String> {
     let mut list = Vec::new();
-    for (index, features) in FEATURES.iter().chain(&SERIAL_FEATURES).enumerate() {
+    for (index, features) in feature_lists(Organization::Serial).iter().enumerate() {
         for choice in 0..16 {
             let size = SERIAL_SIZES[(index * 5 + choice) % SERIAL_SIZES.len()];
             let depth = SERIAL_DEPTHS[(index + choice * 3) % SERIAL_DEPTHS.len()];
@@ -183,7 +175,7 @@ const RASTER_GRIDS: [(u32, u32, u32); 5] = [(3, 0, 0), (1, 1, 0), (2, 0, 1), (4,
 /// Returns configurations of raster designs as TOML, with the smallest width that is allowed.
 pub(crate) fn raster_matrix() -> Vec<String> {
     let mut list = Vec::new();
-    for (index, features) in FEATURES.iter().enumerate() {
+    for (index, features) in feature_lists(Organization::Raster).iter().enumerate() {
         for choice in 0..16 {
             let (size, word) = RASTER_SHAPES[(index * 2 + choice) % RASTER_SHAPES.len()];
             let depth = SERIAL_DEPTHS[(index + choice * 3) % SERIAL_DEPTHS.len()];
