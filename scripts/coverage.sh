@@ -46,7 +46,7 @@ END
 
 edge="{feature='edge',level=100,min_score=5}"
 corner="{feature='corner',level=20,min_score=3}"
-all="[$edge,$corner,{feature='mad',min_score=4},{feature='variance',min_score=30},{feature='range',min_score=40},{feature='surface',min_score=6},{feature='segment',level=8,min_score=4}]"
+all=$(FOVEATE=$foveate python3 scripts/checks/features.py raster)
 fraction="{feature='mad',min_score=4,mean_fraction_bits=2}"
 serial="--level rcm --grid 3x2 --set hardware.organization='serial'"
 raster="--level rcm --set hardware.organization='raster'"

@@ -45,8 +45,7 @@ step "lint"
 both scripts/lint.sh "${lint[@]}"
 
 edge="{feature='edge',level=100,min_score=5}"
-corner="{feature='corner',level=20,min_score=3}"
-all="[$edge,$corner,{feature='mad',min_score=4},{feature='variance',min_score=30},{feature='range',min_score=40},{feature='surface',min_score=6},{feature='segment',level=8,min_score=4}]"
+all=$(FOVEATE=$foveate python3 scripts/checks/features.py raster)
 designs=(
     "paper"
     "paper --set region.neighborhood='shared' --set temporal.reference='last-sent' --set spatial=$all"

@@ -24,20 +24,21 @@ import subprocess
 import sys
 import tempfile
 
+import features
+
 SOURCES = pathlib.Path(__file__).resolve().parents[2]
 YOSYS = os.environ.get("FOVEATE_YOSYS", "yosys")
 RASTER = ["hardware.organization='raster'"]
 DEEP = "hardware.pipelining='deep'"
 SENT = "temporal.reference='last-sent'"
 MEDIAN = "denoise.filter='median3x3'"
-ALL = "spatial=[{feature='edge'},{feature='corner'},{feature='mad'},{feature='variance'},{feature='range'},{feature='surface'},{feature='segment'}]"
 FLOW = "spatial=[{feature='edge'},{feature='flow',radius=3}]"
 # Small regions, so that few pixels have many of them.
 RASTER_SIZES = [["region.size=4", "frame={width=128,height=96}"], ["region.size=4", "frame={width=512,height=512}"]]
 # Lanes and RPUs must not grow; the array of them grows with the frame.
 SERIAL_SIZES = [["frame={width=64,height=64}"], ["frame={width=256,height=256}"]]
 DESIGNS = [
-    # Name, keys, and the keys of the small frame and of the large one. The first design is the quick set.
+    # Name, keys, and the keys of the small frame and of the large one; @all is every feature. The first design is the quick set.
     ("raster last-sent deep", [*RASTER, SENT, DEEP], RASTER_SIZES),
     ("raster external no forwarding", [*RASTER, MEDIAN, "hardware.store='external'", "hardware.forward=false"], RASTER_SIZES),
     ("raster last-sent raw", [*RASTER, SENT, MEDIAN, "render.payload='raw'"], RASTER_SIZES),
@@ -45,8 +46,8 @@ DESIGNS = [
     ("raster block deep", [*RASTER, MEDIAN, DEEP], RASTER_SIZES),
     ("raster single-port deep", [*RASTER, DEEP, "hardware.store='single-port'"], RASTER_SIZES),
     ("raster external deep 4", [*RASTER, DEEP, "hardware.store='external'", "hardware.pixels_per_clock=4"], RASTER_SIZES),
-    ("raster all features", [*RASTER, ALL, SENT], RASTER_SIZES),
-    ("raster all features deep", [*RASTER, ALL, DEEP, "hardware.store='external'"], RASTER_SIZES),
+    ("raster all features", [*RASTER, "spatial=@all", SENT], RASTER_SIZES),
+    ("raster all features deep", [*RASTER, "spatial=@all", DEEP, "hardware.store='external'"], RASTER_SIZES),
     ("raster means deep 2", [*RASTER, DEEP, "render.irrelevant='mean'", "hardware.pixels_per_clock=2", "hardware.store='external'"], RASTER_SIZES),
     ("serial parallel", ["hardware.organization='serial'", "hardware.fold=1"], SERIAL_SIZES),
     ("serial raster feed", ["hardware.organization='serial'", "hardware.fold=4", "hardware.feed='raster'"], SERIAL_SIZES),
@@ -108,7 +109,8 @@ def synthesize(foveate, keys, frame):
     """Returns the areas of the modules of a design for a frame."""
     with tempfile.TemporaryDirectory() as folder:
         command = [foveate, "generate", "--preset", "bare", "-o", "core", "--quiet"]
-        command += [word for key in [*keys, *frame] for word in ("--set", key)]
+        every = f"[{features.entries('raster')}]"
+        command += [word for key in [*keys, *frame] for word in ("--set", key.replace("@all", every))]
         subprocess.run(command, cwd=folder, check=True, capture_output=True)
         files = pathlib.Path(folder, "core/rcm.f").read_text().split()
         script = "".join(f"read_verilog core/{name}\n" for name in files)

@@ -18,6 +18,8 @@ import subprocess
 import sys
 import time
 
+import features
+
 TARGET = os.environ.get("CARGO_TARGET_DIR", "target")
 WORK = os.path.join(TARGET, "formal")
 FOVEATE = os.environ.get("FOVEATE", "foveate")
@@ -75,7 +77,7 @@ class Proof:
 
 def designs():
     """Returns name and settings of each design of formal/designs.txt."""
-    macros, settings_of = {}, {}
+    macros, settings_of = {"@all": f"[{features.entries('raster', level=0, min_score=0)}]"}, {}
     for line in open("formal/designs.txt"):
         name, _, rest = line.strip().partition(" ")
         if name.startswith("@"):

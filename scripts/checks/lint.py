@@ -9,6 +9,8 @@ import subprocess
 import sys
 import time
 
+from features import entries, entry, names
+
 TARGET = os.path.abspath(os.environ.get("CARGO_TARGET_DIR", "target"))
 WORK = os.path.join(TARGET, "lint")
 FOVEATE = os.environ.get("FOVEATE", "foveate")
@@ -16,26 +18,18 @@ VERILATOR = os.environ.get("FOVEATE_VERILATOR", "verilator")
 YOSYS = os.environ.get("FOVEATE_YOSYS", "yosys")
 WAIVERS = "lint/waivers.txt"
 
+# The lowest thresholds, which every size and depth accepts.
+LOWEST = {"level": 0, "min_score": 0}
 EDGE = "{feature='edge',level=1,min_score=1}"
 CORNER = "{feature='corner',level=0,min_score=1}"
-FEATURES = [
-    EDGE,
-    CORNER,
-    "{feature='mad',min_score=0}",
-    "{feature='mad',min_score=0,mean_fraction_bits=2}",
-    "{feature='variance',min_score=0}",
-    "{feature='range',min_score=0}",
-    "{feature='surface',min_score=0}",
-    "{feature='segment',level=0,min_score=0}",
-    f"{EDGE},{CORNER}",
-    f"{{feature='mad',min_score=0}},{EDGE},{CORNER},{{feature='variance',min_score=0}},{{feature='range',min_score=0}},"
-    "{feature='surface',min_score=0},{feature='segment',level=0,min_score=0}",
-]
-# Features that only serial designs have: alone, and with all others.
+FRACTION = entry("mad", mean_fraction_bits=2, **LOWEST)
+# Every feature alone, a mean with a fraction, two features that share a window, and all.
+ALONE = {name: entry(name, **LOWEST) for name in names("raster")}
+FEATURES = [*ALONE.values(), FRACTION, f"{EDGE},{CORNER}", entries("raster", **LOWEST)]
+# Features that only serial designs have: alone, and all.
 SERIAL_FEATURES = [
-    "{feature='flow',min_score=0}",
-    f"{{feature='flow',radius=3,min_score=0}},{EDGE}",
-    f"{FEATURES[-1]},{{feature='flow',radius=2,min_score=0}}",
+    *(entry(name, **LOWEST) for name in names("serial") if name not in ALONE),
+    entries("serial", radius=3, **LOWEST),
 ]
 # The filters with a window.
 FILTERS = ["median3x3", "switching3x3", "binomial3x3"]
@@ -73,9 +67,9 @@ def mean_designs():
     for name, size, blocks, features, more in [
         ("pixels", 4, 4, EDGE, "denoise.filter='median3x3'"),
         ("deep", 12, 2, f"{EDGE},{CORNER}", "hardware={pipelining='deep',thresholds='constant'}"),
-        ("second", 6, 1, FEATURES[2], "render={irrelevant='mean',payload='raw'}"),
+        ("second", 6, 1, ALONE["mad"], "render={irrelevant='mean',payload='raw'}"),
         ("serial", 8, 4, EDGE, "hardware={organization='serial',fold=2}"),
-        ("deep_serial", 5, 1, FEATURES[2], "hardware={organization='serial',feed='raster',pipelining='deep'}"),
+        ("deep_serial", 5, 1, ALONE["mad"], "hardware={organization='serial',feed='raster',pipelining='deep'}"),
     ]:
         yield f"m_{name}_{size}x{size}", [
             f"spatial=[{features}]",
@@ -93,7 +87,7 @@ def raster_mean_designs():
     for name, size, word, blocks, rows, features, more in [
         ("pixels", 4, 1, 4, 3, EDGE, "denoise.filter='median3x3'"),
         ("deep", 12, 2, 2, 2, f"{EDGE},{CORNER}", "hardware={pipelining='deep',thresholds='constant',store='external'}"),
-        ("second", 6, 1, 1, 4, FEATURES[2], "render={irrelevant='mean',payload='raw'}"),
+        ("second", 6, 1, 1, 4, ALONE["mad"], "render={irrelevant='mean',payload='raw'}"),
     ]:
         yield f"rm_{name}_{size}x{size}", [
             f"spatial=[{features}]",
@@ -173,9 +167,9 @@ def axi_matrix():
     for name, size, word, width, height, depth, features, more in [
         ("edge", 8, 1, 64, 40, 8, EDGE, ["hardware.sync=true"]),
         ("means", 5, 1, 83, 33, 10, EDGE, ["render={irrelevant='mean',payload='raw'}"]),
-        ("blocks", 8, 2, 64, 32, 16, FEATURES[4], ["render.irrelevant='mean'", "periphery.blocks=4", "temporal.reference='last-sent'"]),
-        ("wide", 4, 4, 64, 40, 8, FEATURES[4], ["hardware.thresholds='constant'", "hardware.store='external'"]),
-        ("second", 4, 4, 130, 40, 12, FEATURES[6], ["hardware.pipelining='deep'"]),
+        ("blocks", 8, 2, 64, 32, 16, ALONE["variance"], ["render.irrelevant='mean'", "periphery.blocks=4", "temporal.reference='last-sent'"]),
+        ("wide", 4, 4, 64, 40, 8, ALONE["variance"], ["hardware.thresholds='constant'", "hardware.store='external'"]),
+        ("second", 4, 4, 130, 40, 12, ALONE["surface"], ["hardware.pipelining='deep'"]),
         ("short", 6, 1, 48, 17, 1, CORNER, ["hardware.store='single-port'"]),
     ]:
         yield f"a_{name}_{size}x{size}_{depth}bit", [

@@ -21,7 +21,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 TYPES = ("Organization", "Hardware", "FeatureKind", "ReferencePolicy", "IrrelevantRendering")
 # These types are the results of methods of TYPES: a new variant of a type may need a new variant of these.
-PROPERTY_TYPES = ("ArrayStructure", "ScoreUnit", "FeatureAccumulation", "ReferenceWriteTime")
+PROPERTY_TYPES = ("ArrayStructure", "ScoreUnit", "ScoreSource", "ReferenceWriteTime")
 NAMES = rf"\b(?:{'|'.join(TYPES + PROPERTY_TYPES)})::[A-Z]\w*"
 TESTS = re.compile(r"(^|/)(tests|benches|examples)/|(^|/)tests\.rs$")
 COMPARISON = re.compile(rf"[!=]=\s*(?:\w+::)*{NAMES}|{NAMES}(?:\([^)]*\))?\s*[!=]=[^>]|matches!\([^;]*?{NAMES}")

@@ -17,10 +17,10 @@ import subprocess
 import sys
 
 SOURCES = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(SOURCES / "scripts/checks"))
+import features  # noqa: E402
+
 DEVICE = "ecp5-85k"
-FEATURES = ["edge", "corner", "mad", "variance", "range", "surface", "segment"]
-# Features that only serial designs have.
-SERIAL_FEATURES = ["flow"]
 MEDIAN = "denoise.filter='median3x3'"
 DEEP = "hardware.pipelining='deep'"
 RASTER = ["hardware.organization='raster'", "hardware.pixels_per_clock=1"]
@@ -30,16 +30,16 @@ SERIAL = ["hardware.fold=4", "frame={width=32,height=32}"]
 
 def designs():
     """Yields name, preset, changed keys and level of each design."""
-    for feature in FEATURES:
+    for feature in features.names("pipelined"):
         spatial = f"spatial=[{{feature='{feature}'}}]"
         yield f"pipelined {feature}", "bare", [spatial], "rpu"
         yield f"pipelined {feature} median", "bare", [spatial, MEDIAN], "rpu"
         yield f"pipelined {feature} deep", "bare", [spatial, DEEP], "rpu"
         yield f"pipelined {feature} median deep", "bare", [spatial, MEDIAN, DEEP], "rpu"
-    for feature in FEATURES + SERIAL_FEATURES:
+    for feature in features.names("serial"):
         yield f"serial {feature}", "serial", [f"spatial=[{{feature='{feature}'}}]", *SERIAL], "rcm"
         yield f"serial {feature} deep", "serial", [f"spatial=[{{feature='{feature}'}}]", *SERIAL, DEEP], "rcm"
-    for feature in FEATURES:
+    for feature in features.names("raster"):
         for pipelining in ["plain", "deep"]:
             keys = [f"spatial=[{{feature='{feature}'}}]", MEDIAN, *RASTER, f"hardware.pipelining='{pipelining}'"]
             yield f"raster {feature} median {pipelining}", "bare", keys, "rpu"

@@ -14,10 +14,11 @@ import subprocess
 import sys
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).parents[1] / "checks"))
+import features  # noqa: E402
+
 FRAME = (640, 480)
 SIZES = (8, 16)
-# The features of `raster`; only `serial` has `flow`.
-FEATURES = ("edge", "corner", "mad", "variance", "range", "surface", "segment")
 FILTERS = ("none", "median3x3")
 # Filters that are estimated only with the feature of presets paper and fovea.
 OTHER_FILTERS = ("switching3x3", "binomial3x3")
@@ -51,7 +52,7 @@ def estimate(size: int, feature: str, denoise: str, reference: str, irrelevant: 
 
 def main() -> None:
     tool, designs = "", []
-    scores = [*itertools.product(FEATURES, FILTERS), *((PRESET_FEATURE, denoise) for denoise in OTHER_FILTERS)]
+    scores = [*itertools.product(features.names("raster"), FILTERS), *((PRESET_FEATURE, denoise) for denoise in OTHER_FILTERS)]
     for size, (feature, denoise), (reference, irrelevant, name) in itertools.product(SIZES, scores, SCREENS):
         tool, row = estimate(size, feature, denoise, reference, irrelevant)
         designs.append([size, feature, denoise, reference, name, *row])

@@ -94,6 +94,7 @@ pub(crate) enum Command {
     Stress(Box<StressArgs>),
     Bench(BenchArgs),
     Presets(PresetsArgs),
+    Features(FeaturesArgs),
     Completions(CompletionsArgs),
     Man(ManArgs),
 }
@@ -442,6 +443,15 @@ pub(crate) struct PresetsArgs {
     /// List the synthetic scenes instead
     #[arg(long, conflicts_with = "name")]
     pub(crate) scenes: bool,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+/// List the spatial features with their units, defaults and organizations
+#[derive(Args, Debug)]
+#[command(after_help = "Example: foveate features --json")]
+pub(crate) struct FeaturesArgs {
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,

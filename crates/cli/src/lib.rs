@@ -84,6 +84,7 @@ fn run_command(cli: &Cli, words: &[OsString]) -> Result<(), error::CliError> {
         Command::Stress(args) => command::stress::run(args),
         Command::Bench(args) => command::bench::run(args),
         Command::Presets(args) => command::presets::run(args),
+        Command::Features(args) => command::features::run(args),
         Command::Completions(args) => command::completions::run(args),
         Command::Man(args) => command::man::run(args),
     }

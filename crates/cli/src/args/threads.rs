@@ -70,6 +70,7 @@ impl Command {
             | Self::Link(_)
             | Self::Bench(_)
             | Self::Presets(_)
+            | Self::Features(_)
             | Self::Completions(_)
             | Self::Man(_) => None,
         }

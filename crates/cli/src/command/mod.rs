@@ -12,6 +12,7 @@ pub(crate) mod decode;
 pub(crate) mod estimate;
 pub(crate) mod explain;
 pub(crate) mod explore;
+pub(crate) mod features;
 pub(crate) mod fit;
 pub(crate) mod generate;
 pub(crate) mod infer;
