@@ -26,8 +26,10 @@ fn answer_commands(
                 if command.is_write { command.value } else { u32::from(command.address) + 1 };
             let mut bytes = Vec::new();
             packet_encoding::append_register(&mut bytes, RegisterPacket { value, ..command });
+            // A test that has seen the answer finds the command.
+            let is_watched = sender.send(command).is_ok();
             line.send(&spoil(number, bytes));
-            if sender.send(command).is_err() {
+            if !is_watched {
                 return;
             }
         }
