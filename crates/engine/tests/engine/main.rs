@@ -5,6 +5,7 @@
 mod batches;
 mod clip_script;
 mod hard_cases;
+mod largest_thresholds;
 mod losses;
 mod memory;
 mod properties;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Random cameras, the inputs of the comparison of engine and model.
 
+use crate::largest_thresholds::largest_thresholds;
 use foveate_camera::{
     Camera, CameraConfig, Decimal, DenoiseFilter, FeatureKind, IrrelevantRendering, KeenConfig,
     KeenPeripheryConfig, KeenSpatialConfig, KeenTemporalConfig, Neighborhood, Payload,
@@ -109,22 +110,6 @@ pub(crate) fn zoned_cameras() -> impl Strategy<Value = Camera> {
 /// Returns mostly small numbers up to `max`, so that scores lie on both sides of thresholds.
 fn small(max: u32) -> impl Strategy<Value = u32> {
     prop_oneof![2 => 0..=max.min(4), 2 => 0..=max / 4, 1 => 0..=max]
-}
-
-/// Returns the largest level with which some region has a score, and the largest whole minimum. No
-/// region has one if pixels of 1 bit are never on both sides of a mean without a fraction.
-fn largest_thresholds(entry: &SpatialConfig, side: u32, bits: u32) -> (Option<u32>, u32) {
-    let counts = entry.feature.score_unit().is_count();
-    let least = if counts { Decimal::from_whole(1) } else { Decimal::from_billionths(1) };
-    let level = counts.then_some(0);
-    let spatial = vec![SpatialConfig { level, min_score: Some(least), ..entry.clone() }];
-    let mut config = CameraConfig { spatial, ..CameraConfig::default() };
-    (config.region.size, config.frame.pixel_bits) = (side, bits);
-    config.validate().map_or((level, 0), |camera| {
-        let feature = &camera.features()[0];
-        let minimum = u32::try_from(feature.score_max() / feature.unit());
-        (feature.largest_level(), minimum.expect("at most the square of a pixel"))
-    })
 }
 
 fn feature(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Random cameras and clips.
 
+use crate::largest_thresholds::largest_thresholds;
 use foveate_camera::{
     Camera, CameraConfig, Decimal, DenoiseFilter, FeatureKind, IrrelevantRendering, KeenConfig,
     KeenPeripheryConfig, KeenSpatialConfig, KeenTemporalConfig, Neighborhood, Payload,
@@ -151,22 +152,6 @@ pub(crate) fn maps(camera: &Camera, frames: usize, seed: u64) -> Vec<Vec<RegionC
 
 fn small(max: u32) -> impl Strategy<Value = u32> {
     prop_oneof![2 => 0..=max.min(4), 2 => 0..=max / 4, 1 => 0..=max]
-}
-
-/// Returns the largest level with which some region has a score, and the largest whole minimum. No
-/// region has one if pixels of 1 bit are never on both sides of a mean without a fraction.
-fn largest_thresholds(entry: &SpatialConfig, side: u32, bits: u32) -> (Option<u32>, u32) {
-    let counts = entry.feature.score_unit().is_count();
-    let least = if counts { Decimal::from_whole(1) } else { Decimal::from_billionths(1) };
-    let level = counts.then_some(0);
-    let spatial = vec![SpatialConfig { level, min_score: Some(least), ..entry.clone() }];
-    let mut config = CameraConfig { spatial, ..CameraConfig::default() };
-    (config.region.size, config.frame.pixel_bits) = (side, bits);
-    config.validate().map_or((level, 0), |camera| {
-        let feature = &camera.features()[0];
-        let minimum = u32::try_from(feature.score_max() / feature.unit());
-        (feature.largest_level(), minimum.expect("at most the square of a pixel"))
-    })
 }
 
 fn feature(kind: FeatureKind, side: u32, bits: u32, fraction: u32) -> BoxedStrategy<SpatialConfig> {

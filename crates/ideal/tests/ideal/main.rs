@@ -4,4 +4,6 @@
 
 mod by_hand;
 mod generators;
+#[path = "../../../engine/tests/engine/largest_thresholds.rs"]
+mod largest_thresholds;
 mod model;
