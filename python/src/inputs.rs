@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a function over footage takes from Python: inputs, which are footage by its name or frames
+//! The arguments of a function over footage from Python: inputs, which are footage by its name or frames
 //! as arrays, a camera, and the options by which inputs are read.
 
 use std::ffi::CString;

@@ -143,11 +143,11 @@ pub struct DenoiseConfig {
 pub struct SpatialConfig {
     /// The kind of the feature.
     pub feature: FeatureKind,
-    /// Per-pixel threshold of a feature that counts pixels, in grey levels: from 0 to one below
-    /// the largest value that a pixel can have; for a feature with a mean, to the largest level
-    /// with which some region has a score; with a `min_score` of 0, to the largest value itself.
-    /// The default is that of 8 bits ([`LevelSpec::default`](crate::LevelSpec)), and is scaled to
-    /// the depth.
+    /// Per-pixel threshold of a feature that counts pixels, in grey levels: 0..=6*(2^P-1)-1 for
+    /// `edge`, 0..=2^P-2 for `corner`, and for `segment` 0..=2^(P-1)-1 with fraction bits of the
+    /// mean and 0..=2^(P-1)-2 without. With a `min_score` of 0 it may be up to 6*(2^P-1) for
+    /// `edge`, and up to 2^P-1 for the other two. The default is that of 8 bits
+    /// ([`LevelSpec::default`](crate::LevelSpec)), and is scaled to the depth.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub level: Option<u32>,
     /// Per-region threshold, in the unit of the feature. In grey levels and their squares it may

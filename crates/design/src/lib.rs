@@ -35,7 +35,9 @@ pub use choice::{
 pub use class_memory::{CLASS_BITS, CLASS_WORD_BITS, CLASSES_PER_WORD, class_word};
 pub use config::DesignConfig;
 pub use design::Design;
-pub use feature::{FeatureHardware, FlowSearch, PipelinedFeature, RasterFeature, SerialFeature};
+pub use feature::{
+    FeatureDescription, FeatureHardware, FlowSearch, PipelinedFeature, RasterFeature, SerialFeature,
+};
 pub use hardware::Hardware;
 pub use hardware_config::{HardwareConfig, OrganizationConfig, RasterConfig, SerialConfig};
 pub use hardware_view::{DesignWithHardware, PipelinedDesign, RasterDesign, SerialDesign};

@@ -8,9 +8,9 @@ use super::limits::{MAX_CAMERAS, MAX_NETWORK_FILE, MAX_PIXELS, MAX_RECORDING};
 use foveate_camera::toml_text::TomlConfig as _;
 use foveate_camera::{
     AcceptedValues, CameraConfig, ConfigError, ConfigKey, FeatureKind, IrrelevantRendering,
-    KeyBound, SpatialConfig,
+    KeyBound,
 };
-use foveate_design::{Design, DesignConfig, Organization, PRESETS};
+use foveate_design::{Design, DesignConfig, FeatureDescription, PRESETS};
 use foveate_pixels::Scene;
 use serde_json::{Map, Value, json};
 
@@ -55,7 +55,7 @@ pub(crate) fn page_description() -> Result<Value, ConfigError> {
         json!({ "name": scene.name(), "summary": scene.summary(), "frames": scene.default_frames() })
     });
     let keys = DesignConfig::keys().map(|key| described_key(key, &defaults));
-    let features = FeatureKind::ALL.iter().map(|&kind| feature(kind));
+    let features = FeatureKind::ALL.iter().map(|&kind| FeatureDescription::of_kind(kind));
     Ok(json!({
         "version": env!("CARGO_PKG_VERSION"),
         "presets": presets.collect::<Vec<_>>(),
@@ -93,17 +93,5 @@ fn described_key((key, values): &ConfigKey, defaults: &Value) -> Value {
         }
         AcceptedValues::Text(_) => told["kind"] = json!("text"),
     }
-    told
-}
-
-/// Returns a feature with the default values of its keys for pixels of 8 bits, its unit, and the
-/// organizations that support it. Keys that do not apply are left out.
-fn feature(kind: FeatureKind) -> Value {
-    let mut told = json!(SpatialConfig::new(kind).with_defaults(8));
-    told["unit"] = json!(kind.score_unit().name());
-    told["summary"] = json!(kind.spec().summary);
-    let supports = |one: &&Organization| one.feature_kinds().contains(&kind);
-    let organizations = Organization::ALL.iter().filter(supports).map(|one| one.name());
-    told["organizations"] = json!(organizations.collect::<Vec<_>>());
     told
 }

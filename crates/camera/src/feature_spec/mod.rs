@@ -43,7 +43,7 @@ crate::choice! {
 /// The description of a kind of feature. Thresholds are those of pixels of 8 bits.
 #[derive(Debug)]
 pub struct FeatureSpec {
-    /// What the score measures, in a few words that follow the name of the feature.
+    /// The quantity that the score measures, in a few words that follow the name of the feature.
     pub summary: &'static str,
     /// The values of pixels that the score is computed from.
     pub source: ScoreSource,

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What features cost in hardware, one file for each feature: latencies, steps, registers,
-//! memories and rough sizes in every organization that computes the score ([`FeatureHardware`]).
+//! The hardware of features, one file for each feature: latencies, steps, registers, memories and
+//! rough sizes in every organization that computes the score ([`FeatureHardware`]).
 
 mod corner;
+mod description;
 mod edge;
 mod flow;
 mod mad;
@@ -11,6 +12,7 @@ mod segment;
 mod surface;
 mod variance;
 
+pub use description::FeatureDescription;
 pub use flow::FlowSearch;
 
 use crate::{Design, Organization, Pipelining};
@@ -71,7 +73,7 @@ pub struct RasterFeature {
     pub rough_luts: f64,
 }
 
-/// What a word of a memory holds, and its bits.
+/// The contents of a word of a memory, and the function that returns its bits.
 pub(crate) type RowMemory = (&'static str, fn(&Design, &SpatialFeature) -> u32);
 
 /// The widths of registers that a feature needs, in bits. A register that it does not use has 0.
@@ -96,6 +98,11 @@ impl FeatureHardware {
             FeatureKind::Segment => &segment::HARDWARE,
             FeatureKind::Flow => &flow::HARDWARE,
         }
+    }
+
+    /// Returns the organizations that compute the score.
+    pub fn organizations(&self) -> impl Iterator<Item = Organization> {
+        Organization::ALL.iter().copied().filter(|&organization| self.is_in(organization))
     }
 
     /// Returns true if the organization computes the score.

@@ -6,7 +6,7 @@ use foveate_camera::{
     Decimal, DenoiseFilter, FeatureKind, IrrelevantRendering, Neighborhood, Payload,
     ReferencePolicy, SUMMARY_BLOCKS, SpatialConfig,
 };
-use foveate_design::{Design, DesignConfig, Organization};
+use foveate_design::{Design, DesignConfig, FeatureHardware, Organization};
 use foveate_pixels::Frame;
 
 /// Returns a configuration for frames of `size` with regions of side `side` and pixels of `bits`.
@@ -24,11 +24,11 @@ pub(crate) fn config(
     config.camera.temporal.level = Some((1u32 << bits) / 32);
     config.camera.temporal.min_count = 3;
     config.camera.spatial = features.iter().map(|&kind| SpatialConfig::new(kind)).collect();
+    // Pixels of 1 bit are on both sides of a mean only if the mean has a fraction.
+    let needs_fraction = bits == 1
+        && features.iter().any(|kind| kind.has_second_pass() && kind.score_unit().is_count());
     for spatial in &mut config.camera.spatial {
-        // Pixels of 1 bit are on both sides of a mean only if the mean has a fraction.
-        let needs_fraction =
-            features.iter().any(|kind| kind.has_second_pass() && kind.score_unit().is_count());
-        if bits == 1 && needs_fraction && spatial.has_mean_fraction() {
+        if needs_fraction && spatial.has_mean_fraction() {
             spatial.mean_fraction_bits = Some(1);
         }
         if spatial.feature.score_unit().is_count() {
@@ -48,8 +48,8 @@ pub(crate) fn design(config: &DesignConfig) -> Design {
 
 /// Returns an organization that computes the score of the feature: `pipelined` if it can.
 pub(crate) fn organization_for(kind: FeatureKind) -> Organization {
-    let supports = |one: &&Organization| one.feature_kinds().contains(&kind);
-    *Organization::ALL.iter().find(supports).expect("an organization supports each feature")
+    let mut organizations = FeatureHardware::of_kind(kind).organizations();
+    organizations.next().expect("an organization computes each score")
 }
 
 pub(crate) fn kinds_for(side: u32) -> Vec<FeatureKind> {
